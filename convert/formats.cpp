@@ -29,7 +29,8 @@ std::string gltf_pipeline(const SaveOptions& o) {
                                                      : "gltf-light";
   if (o.sky == SkyAs::none && o.lightmap_size.pass_option().empty()) return name;
   std::string text = sized(text_of(name), o.lightmap_size);
-  if (o.sky != SkyAs::none) text.insert(text.find("tessellate"), "sky,");
+  if (o.sky != SkyAs::none)
+    text.insert(text.find("tessellate"), o.sky == SkyAs::picture ? "sky{picture=true}," : "sky,");
   return text;
 }
 

@@ -30,10 +30,11 @@ inline constexpr auto choices<Extras> = choice_row({{"all", "so that the same VR
                                                     {"none"}});
 
 /// What becomes of a Background, which glTF has none of.
-enum class SkyAs : std::uint8_t { none, mesh };
+enum class SkyAs : std::uint8_t { none, mesh, picture };
 template <>
 inline constexpr auto choices<SkyAs> = choice_row({{"none", "kept in extras"},
-                                                   {"mesh", "a dome around the world, and a cube of its pictures"}});
+                                                   {"mesh", "a dome around the world, and a cube of its pictures"},
+                                                   {"picture", "the same, and an equirectangular NAME.sky.png"}});
 
 /// What fields() may add to the name, the value and the help of an option.
 struct OptionNote {

@@ -155,11 +155,20 @@ const Glyph& Font::missing() {
 
 std::vector<PlacedGlyph> Font::shape(std::u32string_view run, bool right_to_left) {
   std::lock_guard lock(mutex_);
-  if (!shaping_) shaping_ = std::make_unique<ShapingFont>(path_);
   std::vector<PlacedGlyph> out;
-  for (const auto& [index, advance, dx, dy] : shaping_->shape(run, right_to_left))
+  for (const auto& [index, advance, dx, dy] : shaping().shape(run, right_to_left))
     out.push_back({&by_index(index), advance, dx, dy});
   return out;
+}
+
+std::vector<std::size_t> Font::clusters(std::u32string_view run, bool right_to_left) {
+  std::lock_guard lock(mutex_);
+  return shaping().clusters(run, right_to_left);
+}
+
+const ShapingFont& Font::shaping() {
+  if (!shaping_) shaping_ = std::make_unique<ShapingFont>(path_);
+  return *shaping_;
 }
 
 const Glyph& Font::by_index(std::uint32_t index) {

@@ -39,6 +39,8 @@ class Font {
   const Glyph* glyph(char32_t character);
   /// The glyphs of a run of letters, from left to right (geometry/shaping.h).
   std::vector<PlacedGlyph> shape(std::u32string_view run, bool right_to_left);
+  /// Where its clusters begin: letters with their marks, syllables.
+  std::vector<std::size_t> clusters(std::u32string_view run, bool right_to_left);
   /// What stands for characters that no font has.
   const Glyph& missing();
   /// Part of the height of a line that is above the baseline; the rest is below it.
@@ -47,6 +49,7 @@ class Font {
  private:
   friend class Fonts;
   Font(std::string path, FT_FaceRec_* face, double slant, std::mutex& mutex);
+  const ShapingFont& shaping();
   const Glyph& by_index(std::uint32_t index);
 
   std::string path_;

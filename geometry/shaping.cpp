@@ -1,6 +1,7 @@
 #include "geometry/shaping.h"
 
 #include <algorithm>
+#include <span>
 
 #ifdef WRLKIT_SHAPING
 #include <fribidi.h>
@@ -33,7 +34,7 @@ struct Functions {
 #include "geometry/shaping_functions.def"
 #undef HARFBUZZ
 #undef BIDI
-  bool are_there = false;
+  bool has_harfbuzz = false, has_fribidi = false;
 };
 
 Functions open_libraries() {
@@ -44,7 +45,8 @@ Functions open_libraries() {
 #include "geometry/shaping_functions.def"
 #undef HARFBUZZ
 #undef BIDI
-  out.are_there = harfbuzz.fault().empty() && fribidi.fault().empty();
+  out.has_harfbuzz = harfbuzz.fault().empty();
+  out.has_fribidi = fribidi.fault().empty();
   return out;
 }
 
@@ -72,7 +74,14 @@ bool is_too_long(std::size_t length, char32_t last) {
 
 }  // namespace
 
-bool can_shape() { return lib().are_there; }
+bool can_shape() { return lib().has_harfbuzz && lib().has_fribidi; }
+
+MissingLibraries missing_for_shaping() {
+  if (can_shape()) return {};
+  if (lib().has_harfbuzz) return {"FriBidi", "libfribidi0"};
+  if (lib().has_fribidi) return {"HarfBuzz", "libharfbuzz0b"};
+  return {"HarfBuzz and FriBidi", "libharfbuzz0b and libfribidi0"};
+}
 
 std::vector<std::uint32_t> scripts_of(std::u32string_view line) {
   std::vector<std::uint32_t> out;
@@ -131,29 +140,64 @@ ShapingFont::~ShapingFont() {
   lib().hb_face_destroy(handles_->face);
 }
 
+namespace {
+
+/// A run that HarfBuzz has shaped.
+class ShapedRun {
+ public:
+  ShapedRun(hb_font_t* font, std::u32string_view run, bool right_to_left) : buffer_(lib().hb_buffer_create()) {
+    const std::vector<std::uint32_t> text(run.begin(), run.end());
+    const int length = static_cast<int>(text.size());
+    lib().hb_buffer_add_utf32(buffer_, text.data(), length, 0, length);
+    lib().hb_buffer_set_direction(buffer_, right_to_left ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
+    lib().hb_buffer_set_language(buffer_, lib().hb_language_from_string("und", -1));  // else that of the user's locale
+    lib().hb_buffer_guess_segment_properties(buffer_);
+    lib().hb_shape(font, buffer_, nullptr, 0);
+  }
+  ~ShapedRun() { lib().hb_buffer_destroy(buffer_); }
+  ShapedRun(const ShapedRun&) = delete;
+  ShapedRun& operator=(const ShapedRun&) = delete;
+
+  std::span<const hb_glyph_info_t> glyphs() const {
+    unsigned n = 0;
+    const hb_glyph_info_t* const first = lib().hb_buffer_get_glyph_infos(buffer_, &n);
+    return {first, n};
+  }
+  const hb_glyph_position_t* places() const { return lib().hb_buffer_get_glyph_positions(buffer_, nullptr); }
+
+ private:
+  hb_buffer_t* buffer_;
+};
+
+}  // namespace
+
+std::vector<std::size_t> ShapingFont::clusters(std::u32string_view run, bool right_to_left) const {
+  const ShapedRun shaped(handles_->font, run, right_to_left);
+  std::vector<std::size_t> begins;
+  for (const hb_glyph_info_t& glyph : shaped.glyphs()) begins.push_back(glyph.cluster);
+  std::ranges::sort(begins);
+  begins.erase(std::unique(begins.begin(), begins.end()), begins.end());
+  return begins;
+}
+
 std::vector<ShapedGlyph> ShapingFont::shape(std::u32string_view run, bool right_to_left) const {
-  const std::vector<std::uint32_t> text(run.begin(), run.end());
-  const int length = static_cast<int>(text.size());
-  hb_buffer_t* const buffer = lib().hb_buffer_create();
-  lib().hb_buffer_add_utf32(buffer, text.data(), length, 0, length);
-  lib().hb_buffer_set_direction(buffer, right_to_left ? HB_DIRECTION_RTL : HB_DIRECTION_LTR);
-  lib().hb_buffer_set_language(buffer, lib().hb_language_from_string("und", -1));  // else that of the user's locale
-  lib().hb_buffer_guess_segment_properties(buffer);
-  lib().hb_shape(handles_->font, buffer, nullptr, 0);
-  unsigned n = 0;
-  const hb_glyph_info_t* const infos = lib().hb_buffer_get_glyph_infos(buffer, &n);
-  const hb_glyph_position_t* const places = lib().hb_buffer_get_glyph_positions(buffer, &n);
+  const ShapedRun shaped(handles_->font, run, right_to_left);
   const double em = std::max(1u, lib().hb_face_get_upem(handles_->face));
   std::vector<ShapedGlyph> out;
-  for (unsigned i = 0; i < n; ++i)
-    out.push_back({infos[i].codepoint, places[i].x_advance / em, places[i].x_offset / em, places[i].y_offset / em});
-  lib().hb_buffer_destroy(buffer);
+  const hb_glyph_position_t* place = shaped.places();
+  for (const hb_glyph_info_t& glyph : shaped.glyphs()) {
+    out.push_back({glyph.codepoint, place->x_advance / em, place->x_offset / em, place->y_offset / em});
+    ++place;
+  }
   return out;
 }
 
 #else
 
 bool can_shape() { return false; }
+MissingLibraries missing_for_shaping() {
+  return {"HarfBuzz and FriBidi, which this build leaves out", "libharfbuzz-dev, libfribidi-dev for a build"};
+}
 std::vector<std::uint32_t> scripts_of(std::u32string_view line) { return std::vector<std::uint32_t>(line.size(), 0); }
 std::vector<TextRun> visual_runs(std::u32string_view line, const std::vector<std::uint32_t>&, std::optional<bool>) {
   return {{0, line.size(), false}};
@@ -162,6 +206,7 @@ std::vector<TextRun> visual_runs(std::u32string_view line, const std::vector<std
 struct ShapingFont::Handles {};
 ShapingFont::ShapingFont(const std::string&) {}
 ShapingFont::~ShapingFont() = default;
+std::vector<std::size_t> ShapingFont::clusters(std::u32string_view, bool) const { return {}; }
 std::vector<ShapedGlyph> ShapingFont::shape(std::u32string_view, bool) const { return {}; }
 
 #endif

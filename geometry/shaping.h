@@ -17,6 +17,11 @@ bool needs_shaping(char32_t);
 
 /// Are both libraries there?
 bool can_shape();
+/// What is not, in words, and the Debian packages that have it; both empty when all is.
+struct MissingLibraries {
+  std::string names, packages;
+};
+MissingLibraries missing_for_shaping();
 
 /// Letters of one script and one direction.
 struct TextRun {
@@ -46,6 +51,8 @@ class ShapingFont {
   ShapingFont(const ShapingFont&) = delete;
   ShapingFont& operator=(const ShapingFont&) = delete;
 
+  /// Where the clusters of a run begin: letters with their marks, syllables of Indian scripts.
+  std::vector<std::size_t> clusters(std::u32string_view run, bool right_to_left) const;
   /// Glyphs of one run, from left to right. At worst quadratic in its length.
   std::vector<ShapedGlyph> shape(std::u32string_view run, bool right_to_left) const;
 

@@ -141,8 +141,11 @@ class TextMaker {
   void report_missing();
   void add_line(std::string_view);
   void add_letters();
+  void add_letter(const Glyph&);
   void add_shaped();
-  double advance(const PlacedGlyph& g) const { return style_.horizontal ? g.advance * style_.size : style_.size; }
+  void add_run(Font&, const TextRun&);
+  void add_clusters(Font&, const TextRun&);
+  double advance(const PlacedGlyph& g) const { return g.advance * style_.size; }
   void set_lengths();
   double major_start(const Line&) const;
   double minor_start() const;
@@ -159,7 +162,7 @@ class TextMaker {
   std::vector<Line> lines_;
   bool cut_off_ = false;
   std::size_t n_missing_ = 0;
-  char32_t first_missing_ = 0;
+  char32_t first_missing_ = 0, first_unshaped_ = 0;
   Vec2 origin_{};  // of the texture
 };
 
@@ -193,6 +196,11 @@ Font* TextMaker::font_of(char32_t c) {
 }
 
 void TextMaker::report_missing() {
+  if (first_unshaped_) {
+    const auto [names, packages] = missing_for_shaping();
+    job_.ctx.diag.report(Diag::text_not_shaped, where(), title(job_),
+                         fmt::format("{:04X}", static_cast<std::uint32_t>(first_unshaped_)), names, packages);
+  }
   if (!n_missing_) return;
   auto first = fmt::format("{:04X}", static_cast<std::uint32_t>(first_missing_));
   if (const auto* known = fallback_fonts(first_missing_))
@@ -210,10 +218,10 @@ void TextMaker::add_line(std::string_view s) {
     if (!cut_off_) letters_.push_back(c);
   }
   Line line{glyphs_.size(), glyphs_.size(), 0, 1};
-  if (style_.horizontal && std::ranges::any_of(letters_, needs_shaping) && can_shape())
-    add_shaped();
-  else
-    add_letters();
+  const auto special = std::ranges::find_if(letters_, needs_shaping);
+  const bool shapes = special != letters_.end() && can_shape();
+  if (special != letters_.end() && !shapes && !first_unshaped_) first_unshaped_ = *special;
+  shapes ? add_shaped() : add_letters();
   line.last = glyphs_.size();
   for (auto i = line.first; i < line.last; ++i) line.length += advance(glyphs_[i]);
   lines_.push_back(line);
@@ -223,12 +231,20 @@ void TextMaker::add_letters() {
   for (const char32_t c : letters_) {
     if (is_invisible(c)) continue;
     Font* const font = font_of(c);
-    const Glyph& g = font ? *font->glyph(c) : font_->missing();
-    glyphs_.push_back({&g, g.advance});
+    add_letter(font ? *font->glyph(c) : font_->missing());
   }
 }
 
-/// Glyphs of a line with letters that join or run from right to left, in the order in which they stand along the line.
+/// Behind the one before, or in a column below or above it, in the middle.
+void TextMaker::add_letter(const Glyph& g) {
+  if (style_.horizontal)
+    glyphs_.push_back({&g, g.advance});
+  else
+    glyphs_.push_back({&g, 1, (1 - g.advance) / 2});
+}
+
+/// Glyphs of a line with letters that join or run from right to left, in the order in which they stand along the line;
+/// in a column in the order in which they are read.
 void TextMaker::add_shaped() {
   const auto scripts = scripts_of(letters_);
   std::vector<Font*> fonts;
@@ -246,16 +262,40 @@ void TextMaker::add_shaped() {
   }
   const auto first = glyphs_.size();
   const auto direction = style_.left_to_right ? std::optional<bool>() : true;
-  for (const TextRun& run : visual_runs(letters_, kinds, direction)) {
-    const auto text = std::u32string_view(letters_).substr(run.begin, run.end - run.begin);
-    if (Font* const font = fonts[run.begin]) {
-      const auto shaped = font->shape(text, run.right_to_left);
-      glyphs_.insert(glyphs_.end(), shaped.begin(), shaped.end());
-    } else {
-      glyphs_.insert(glyphs_.end(), text.size(), {&font_->missing(), font_->missing().advance});
+  auto runs = visual_runs(letters_, kinds, direction);
+  if (!style_.horizontal) std::ranges::sort(runs, {}, &TextRun::begin);
+  for (const TextRun& run : runs) {
+    if (Font* const font = fonts[run.begin])
+      style_.horizontal ? add_run(*font, run) : add_clusters(*font, run);
+    else
+      for (auto i = run.begin; i < run.end; ++i) add_letter(font_->missing());
+  }
+  if (style_.horizontal && !style_.left_to_right)
+    std::reverse(glyphs_.begin() + static_cast<std::ptrdiff_t>(first), glyphs_.end());
+}
+
+void TextMaker::add_run(Font& font, const TextRun& run) {
+  const auto text = std::u32string_view(letters_).substr(run.begin, run.end - run.begin);
+  const auto shaped = font.shape(text, run.right_to_left);
+  glyphs_.insert(glyphs_.end(), shaped.begin(), shaped.end());
+}
+
+/// Each cluster of a column has the place of one letter; letters that would join stand alone.
+void TextMaker::add_clusters(Font& font, const TextRun& run) {
+  const auto text = std::u32string_view(letters_).substr(run.begin, run.end - run.begin);
+  auto begins = font.clusters(text, run.right_to_left);
+  begins.push_back(text.size());
+  for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
+    const auto shaped = font.shape(text.substr(begins[i], begins[i + 1] - begins[i]), run.right_to_left);
+    double width = 0;
+    for (const PlacedGlyph& g : shaped) width += g.advance;
+    double left = (1 - width) / 2;
+    const std::size_t steps = style_.top_to_bottom ? 0 : shaped.size() - 1;  // the glyph that the pen moves by
+    for (std::size_t k = 0; k < shaped.size(); ++k) {
+      glyphs_.push_back({shaped[k].glyph, k == steps ? 1.0 : 0.0, left + shaped[k].dx, shaped[k].dy});
+      left += shaped[k].advance;
     }
   }
-  if (!style_.left_to_right) std::reverse(glyphs_.begin() + static_cast<std::ptrdiff_t>(first), glyphs_.end());
 }
 
 /// The lengths that the node asks for: `length` of each string, then maxExtent of the longest.
@@ -319,7 +359,7 @@ void TextMaker::place(const Line& line, double minor) {
     else if (style_.horizontal)
       add(g, {low + placed.dx * stretched, minor + placed.dy * size, stretched, size});
     else
-      add(g, {minor + (1 - g.advance) / 2 * size, low + (1 - font_->ascent()) * stretched, size, stretched});
+      add(g, {minor + placed.dx * size, low + (1 - font_->ascent() + placed.dy) * stretched, size, stretched});
     pen += way * step;
   }
 }

@@ -100,6 +100,7 @@ struct RayScene::State {
   const Embree& embree = opened_embree();
 
   ~State();
+  double width_of(std::uint32_t use) const { return use < options.widths.size() ? options.widths[use] : 1; }
   bool is_clear(std::uint32_t use) const { return use < options.clear.size() && options.clear[use]; }
   BatchKind kind_of(std::uint32_t use) const;
   bool is_instanced(std::uint32_t use, std::span<const std::uint32_t> n_uses) const;
@@ -109,8 +110,8 @@ struct RayScene::State {
   void place_uses(Diagnostics& diag);
   void flatten(std::uint32_t use);
   void add_vertices(Batch& to, const Affine& frame, const PooledMesh& mesh);
-  void add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh);
-  void add_discs(Batch& to, const Affine& frame, const PooledMesh& mesh);
+  void add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh, double by);
+  void add_discs(Batch& to, const Affine& frame, const PooledMesh& mesh, double by);
   void add_dot(Batch& to, const Pen::Dot& dot) const;
   void instance(std::uint32_t use);
   RTCScene scene_of(std::uint32_t mesh);
@@ -272,8 +273,8 @@ void RayScene::State::flatten(std::uint32_t use) {
   to.part_number.resize(to.part_number.size() + m.n_elements, static_cast<std::uint32_t>(to.parts.size()));
   to.parts.push_back({to.n_elements, use, flipped});
   to.n_elements += m.n_elements;
-  if (m.kind == Mesh::Kind::lines) return add_ribbons(to, frame, m);
-  if (m.kind == Mesh::Kind::points) return add_discs(to, frame, m);
+  if (m.kind == Mesh::Kind::lines) return add_ribbons(to, frame, m, width_of(use));
+  if (m.kind == Mesh::Kind::points) return add_discs(to, frame, m, width_of(use));
   auto base = static_cast<std::uint32_t>(to.vertices.size() / 3);
   add_vertices(to, frame, m);
   const std::uint32_t* c = meshes.corners.data() + m.first_corner;
@@ -297,18 +298,18 @@ void RayScene::State::add_dot(Batch& to, const Pen::Dot& dot) const {
                                          static_cast<float>(p.z), static_cast<float>(dot.radius)});
 }
 
-void RayScene::State::add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh) {
+void RayScene::State::add_ribbons(Batch& to, const Affine& frame, const PooledMesh& mesh, double by) {
   for (std::size_t e = 0; e < mesh.n_elements; ++e) {
     to.indices.push_back(static_cast<std::uint32_t>(to.vertices.size() / 4));
     V3 a = frame.point(meshes.position(mesh, e, 0) + mesh.origin),
        b = frame.point(meshes.position(mesh, e, 1) + mesh.origin);
-    for (const Pen::Dot& d : options.pen->line(a, b)) add_dot(to, d);
+    for (const Pen::Dot& d : options.pen->line(a, b, by)) add_dot(to, d);
   }
 }
 
-void RayScene::State::add_discs(Batch& to, const Affine& frame, const PooledMesh& mesh) {
+void RayScene::State::add_discs(Batch& to, const Affine& frame, const PooledMesh& mesh, double by) {
   for (std::size_t e = 0; e < mesh.n_elements; ++e)
-    add_dot(to, options.pen->point(frame.point(meshes.position(mesh, e, 0) + mesh.origin)));
+    add_dot(to, options.pen->point(frame.point(meshes.position(mesh, e, 0) + mesh.origin), by));
 }
 
 RTCScene RayScene::State::new_scene(std::size_t elements) const {
@@ -403,6 +404,7 @@ RayScene::RayScene(const Stage& stage, const MeshPool& meshes, std::span<const s
   if (s.embree.rtcGetDeviceError(s.device) == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
   s.measure();
   s.options.pen = nullptr;
+  s.options.widths = {};
   s.options.clear = {};
 }
 

@@ -41,8 +41,9 @@ class Pen {
     double radius;
   };
   virtual ~Pen() = default;
-  virtual std::array<Dot, 2> line(const V3& a, const V3& b) const = 0;
-  virtual Dot point(const V3& p) const = 0;
+  /// `by`: a factor for how wide plain ones are.
+  virtual std::array<Dot, 2> line(const V3& a, const V3& b, double by) const = 0;
+  virtual Dot point(const V3& p, double by) const = 0;
 };
 
 /// How things are put before the rays.
@@ -51,6 +52,7 @@ struct RayOptions {
   bool fronts_first = false;         // of triangles at one distance those seen from the front count as nearer
   std::size_t all_flat = 8'000'000;  // up to this many elements nothing is instanced: rays are faster then
   const Pen* pen = nullptr;          // none: rays pass lines and points
+  std::span<const float> widths;     // by use: of lines and points, in those of plain ones; may be empty
   std::span<const char> clear;       // by use: not in the way of occluded(); may be empty
 };
 

@@ -13,6 +13,7 @@
 #include "light/render/level.h"
 #include "light/render/sampling.h"
 #include "light/render/shade.h"
+#include "light/render/widths.h"
 #include "light/render/wireframe.h"
 #include "scenegraph/nodes.h"
 
@@ -191,7 +192,8 @@ Image render(const Scene& scene, const MeshSource& source, const RenderOptions& 
   for (const Use& u : stage.uses) surface_of.push_back(surfaces.of(u.appearance));
   Drawing drawing{stage, pool, surfaces, mesh_of, surface_of};
   bool wireframe = options.mode == RenderOptions::Mode::wireframe;
-  Tracer tracer(stage, pool, mesh_of, camera, {.cull = !wireframe}, diag);
+  const auto widths = widths_of(scene, stage, pool, mesh_of);
+  Tracer tracer(stage, pool, mesh_of, camera, {.cull = !wireframe, .widths = widths}, diag);
   if (wireframe) {
     Wireframe w(drawing, tracer, camera, options.background ? V3(*options.background) : V3(1));
     return sample_picture(raster, [&](double x, double y) { return w.color(x, y); });

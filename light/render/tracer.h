@@ -12,6 +12,7 @@ struct TracerOptions {
   double line_width = 1.5;  // pixels
   double point_size = 2;
   std::size_t all_flat = RayOptions{}.all_flat;
+  std::span<const float> widths = {};  // by use: factors for these widths; may be empty
 };
 
 class Tracer {

@@ -253,13 +253,24 @@ void Lowering::visit_separator(NodeId n, State s, Frame& frame) {
   if (known->second.drawn) frame.add(known->second.drawn);
 }
 
+/// Of a Switch: the number of its child, -1 (none) or -3 (all). As in Coin, -2 takes that of the last Switch before it
+/// in the state, and numbers beyond its children begin again at the first.
+std::int32_t Lowering::chosen_of(NodeId n, std::size_t n_children, State& s) const {
+  const auto chosen = which_child(scene_, n);
+  if (chosen == inherits) {
+    const auto count = static_cast<std::int32_t>(n_children);
+    return count > 0 && s.chosen >= count ? s.chosen % count : s.chosen;
+  }
+  if (some_inherit_) s.chosen = chosen;
+  return chosen;
+}
+
 // The chosen child acts like one of a Group; the others are drawn apart from everything, so that they can be chosen
 // later.
 void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
   const auto nodes = children_of(n);
-  const auto chosen =
-      is(n, v1::Switch) ? scene_.get(n, v1::switch_::whichChild) : scene_.get(n, v1::blinker::whichChild);
-  if (chosen == -3) return visit_group(n, nodes, s, frame);
+  const auto chosen = chosen_of(n, nodes.size(), s);
+  if (chosen == all) return visit_group(n, nodes, s, frame);
   if (scene_.name(n) == "Cameras") {  // the viewpoints of the world; the chosen one comes first
     std::vector<NodeId> order(nodes.begin(), nodes.end());
     if (chosen > 0 && static_cast<std::size_t>(chosen) < order.size())
@@ -291,7 +302,7 @@ void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
     scene_.set_name(made, scene_.name(n));
     scene_.set(made, nodes::switch_::children, choices);
     scene_.set(made, nodes::switch_::whichChoice,
-               chosen >= 0 && static_cast<std::size_t>(chosen) < nodes.size() ? chosen : -1);
+               chosen >= 0 && static_cast<std::size_t>(chosen) < nodes.size() ? chosen : none);
     frame.add(made);
   }
   s = after;

@@ -10,6 +10,8 @@
 #include "passes/lower_vrml1/frame.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "passes/lower_vrml1/shapes.h"
+#include "scenegraph/any_node.h"
+#include "scenegraph/nodes.h"
 
 namespace wrlkit::vrml1 {
 
@@ -29,6 +31,7 @@ class Lowering {
   Lowering(Scene& scene, const LowerVrml1Options& options, PassContext& ctx)
       : scene_(scene),
         diag_(ctx.diag),
+        some_inherit_(any_node(scene, [&](NodeId n) { return which_child(scene, n) == inherits; })),
         looks_(scene, diag_),
         shapes_(scene, looks_, diag_, default_crease_angle()),
         steps_left_(static_cast<std::size_t>(options.limit) + steps_a_node * scene.node_count()),
@@ -41,9 +44,15 @@ class Lowering {
 
  private:
   static constexpr std::size_t steps_a_node = 16, deepest = 2000;
+  static constexpr std::int32_t all = -3, inherits = -2, none = -1;  // of whichChild
 
   // Inventor 2.1 made 0 of it.
   double default_crease_angle() const { return scene_.header.starts_with("#Inventor V2.1") ? 0 : 0.5; }
+  static std::int32_t which_child(const Scene& scene, NodeId n) {
+    namespace v1 = nodes::vrml1;
+    if (scene.is(n, v1::Switch)) return scene.get(n, v1::switch_::whichChild);
+    return scene.is(n, v1::Blinker) ? scene.get(n, v1::blinker::whichChild) : none;
+  }
   bool is(NodeId n, TypeId t) const { return scene_.is(n, t); }
   void legal_names();
   /// False when there is too much that comes again, which is reported once. What comes for the first time is always
@@ -58,6 +67,7 @@ class Lowering {
   void visit_transform(NodeId n, State&, Frame&);
   void visit_light(NodeId n, Frame&);
   void visit_switch(NodeId n, State&, Frame&);
+  std::int32_t chosen_of(NodeId n, std::size_t n_children, State&) const;
   void visit_lod(NodeId n, const State&, Frame&);
   void visit_copies(NodeId n, const State&, Frame&);
   void visit_shape(NodeId n, const State&, Frame&);
@@ -98,6 +108,7 @@ class Lowering {
 
   Scene& scene_;
   Diagnostics& diag_;
+  const bool some_inherit_;  // some Switch takes its whichChild from another one
   Looks looks_;
   Shapes shapes_;
   std::map<std::pair<NodeId, State>, Effect> effects_;

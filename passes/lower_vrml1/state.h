@@ -44,6 +44,8 @@ struct State {
   Drawing drawing = Drawing::filled;
   bool lit = true;
   std::uint8_t unit = 0;  // of Units
+  std::int32_t chosen =
+      -1;  // whichChild of the last Switch, for those that inherit it; -1 where there are none of them
   auto operator<=>(const State&) const = default;
 };
 

@@ -1,5 +1,8 @@
 #include "passes/lower_x3d/generated_texcoords.h"
 
+#include <set>
+#include <string>
+
 #include "geometry/geometry.h"
 #include "geometry/tessellation.h"
 #include "passes/normals/normals.h"
@@ -28,12 +31,22 @@ void make(Mesh& mesh, std::span<const std::uint32_t> index, std::size_t count, A
     for (const double number : at(i)) mesh.texcoord.values.push_back(static_cast<float>(number));
 }
 
+/// Of the modes that no fixed coordinates can stand for.
+void report(const Scene& scene, NodeId generator, std::string_view mode, Diagnostics& diag) {
+  const std::string why =
+      mode.starts_with("NOISE") ? "the standard does not define its noise" : "it depends on the viewer";
+  diag.report(Diag::drawn_otherwise, scene.where(generator),
+              "the picture of a TextureCoordinateGenerator with mode '" + std::string(mode) + "'",
+              "over the bounding box, because " + why);
+}
+
 }  // namespace
 
 bool make_generated_texcoords(Scene& scene, PassContext& ctx) {
   if (!any_node(scene, [&](NodeId n) { return scene.is(n, nodes::TextureCoordinateGenerator); })) return false;
   const auto driven = driven_geometry(scene);
   bool changed = false;
+  std::set<NodeId> reported;
   Mesh mesh;
   MeshScratch scratch;
   for (NodeId n : all_nodes(scene)) {
@@ -41,7 +54,12 @@ bool make_generated_texcoords(Scene& scene, PassContext& ctx) {
     if (!generator || (n.value < driven.size() && driven[n.value])) continue;
     const auto mode = scene.get(generator, nodes::texture_coordinate_generator::mode);
     const bool coord = mode == "COORD", local = mode == "SPHERE-LOCAL";
-    if (!coord && !local) continue;
+    if (!coord && !local) {
+      if (reported.insert(generator).second) report(scene, generator, mode, ctx.diag);
+      scene.unset(n, *scene.type(n).find("texCoord", Dialect::x3d));
+      changed = true;
+      continue;
+    }
     mesh.clear();
     MeshJob job{scene, n, mesh, scratch, ctx};
     make_mesh(job, {.triangles = false});

@@ -95,6 +95,16 @@ bool rename_group(Scene& scene, NodeId n, Diagnostics& diag) {
   return true;
 }
 
+/// The node becomes a Switch that does not show what it was, which is returned.
+NodeId put_into_switch(Scene& scene, NodeId n) {
+  const NodeId copy = scene.add(scene.type_id(n), scene.where(n));
+  scene.set_fields(copy, scene.copy_of_fields(n));
+  scene.become(
+      n, nodes::Switch,
+      std::vector<Value>{scene.make(FieldType::MFNode, nodes::switch_::children.slot, std::vector<NodeId>{copy})});
+  return copy;
+}
+
 bool hide(Scene& scene, NodeId n) {
   const auto& t = scene.type(n);
   auto slot = t.find("visible", Dialect::x3d);
@@ -107,11 +117,28 @@ bool hide(Scene& scene, NodeId n) {
     scene.set(n, scene.make(FieldType::MFNode, *children, std::vector<NodeId>{hidden(scene, n, all)}));
     return true;
   }
-  NodeId copy = scene.add(scene.type_id(n), scene.where(n));  // a Shape or an Inline
-  scene.set_fields(copy, scene.copy_of_fields(n));
-  scene.become(
-      n, nodes::Switch,
-      std::vector<Value>{scene.make(FieldType::MFNode, nodes::switch_::children.slot, std::vector<NodeId>{copy})});
+  put_into_switch(scene, n);  // a Shape or an Inline
+  return true;
+}
+
+bool is_of_lines_or_points(const Scene& scene, NodeId geometry) {
+  static constexpr TypeId types[] = {nodes::IndexedLineSet, nodes::LineSet,    nodes::PointSet,    nodes::Arc2D,
+                                     nodes::Circle2D,       nodes::Polyline2D, nodes::Polypoint2D, nodes::NurbsCurve};
+  return std::ranges::any_of(types, [&](TypeId t) { return scene.is(geometry, t); });
+}
+
+/// Faces that are neither filled nor hatched (X3D 12.4.2) are not drawn.
+bool hide_unfilled(Scene& scene, NodeId n) {
+  namespace a = nodes::appearance;
+  namespace f = nodes::fill_properties;
+  if (!scene.is(n, nodes::Shape) || is_of_lines_or_points(scene, scene.get(n, nodes::shape::geometry))) return false;
+  const NodeId look = scene.get(n, nodes::shape::appearance);
+  const NodeId fill = scene.is(look, nodes::Appearance) ? scene.get(look, a::fillProperties) : NodeId{};
+  if (!scene.is(fill, nodes::FillProperties) || scene.get(fill, f::filled) || scene.get(fill, f::hatched)) return false;
+  const NodeId shape = put_into_switch(scene, n), own = scene.add(nodes::Appearance, scene.where(look));
+  scene.set_fields(own, scene.copy_of_fields(look));
+  scene.unset(own, a::fillProperties.slot);
+  scene.set(shape, nodes::shape::appearance, own);
   return true;
 }
 
@@ -119,7 +146,7 @@ bool hide(Scene& scene, NodeId n) {
 
 bool lower_group(Scene& scene, NodeId n, Diagnostics& diag) {
   const bool renamed = rename_group(scene, n, diag);
-  return hide(scene, n) || renamed;
+  return hide(scene, n) || hide_unfilled(scene, n) || renamed;
 }
 
 }  // namespace wrlkit::x3d

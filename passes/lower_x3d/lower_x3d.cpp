@@ -9,9 +9,12 @@
 #include "passes/lower_x3d/groups.h"
 #include "passes/lower_x3d/interpolators.h"
 #include "passes/lower_x3d/materials.h"
+#include "passes/lower_x3d/multi_texture.h"
 #include "passes/lower_x3d/nurbs_geometry.h"
+#include "passes/lower_x3d/particles.h"
 #include "passes/lower_x3d/plant_shapes.h"
 #include "passes/lower_x3d/product.h"
+#include "passes/lower_x3d/texcoords_3d.h"
 #include "passes/lower_x3d/two_sides.h"
 #include "passes/lower_x3d/vrml97.h"
 #include "scenegraph/any_node.h"
@@ -62,7 +65,9 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
   bool changed = x3d::place_on_earth(scene, ctx.diag);
   changed |= lower_curves(scene, options, ctx.diag);
   changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
-  changed |= x3d::lower_plant_shapes(scene);
+  changed |= x3d::lower_plant_shapes(scene, ctx.diag);
+  changed |= x3d::lower_particles(scene, ctx);
+  changed |= x3d::combine_multi_textures(scene, ctx);
   changed |= split_sides(scene);
   for (NodeId n : all_nodes(scene)) {
     changed |= x3d::lower_browser_node(scene, n);
@@ -72,6 +77,7 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
     changed |= x3d::lower_group(scene, n, ctx.diag);
   }
   changed |= x3d::make_generated_texcoords(scene, ctx);
+  changed |= x3d::flatten_texcoords(scene, ctx);
   changed |= x3d::cut_by_clip_planes(scene, ctx);
   const bool all = options.vrml97 && !options.defer_colors;
   if (all) changed |= x3d::lower_products(scene, ctx);

@@ -16,8 +16,10 @@ vocabulary.
 Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet, Geometry2D these with 64 sides to a circle;
 StaticGroup, CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups;
 X3DOM's shapes of plants (Snout, Dish, Torus, ...) become forms, as `recognise` finds them;
-what is not `visible` stands in a Switch that shows nothing; of a MultiTexture the first picture stays; faces that
-look otherwise from behind (TwoSidedMaterial, backMaterial) become two Shapes, of other geometry the front stays.
+what is not `visible`, and faces that are neither filled nor hatched, stand in a Switch that shows nothing; the
+pictures of a MultiTexture become one, or the first stays; faces that look otherwise from behind (TwoSidedMaterial,
+backMaterial) become two Shapes, of other geometry the front stays. A ParticleSystem becomes its particles as they
+stand in its first second; texture coordinates of three and four numbers become those of flat pictures.
 What a ClipPlane hides is cut off. NURBS become triangles and lines within `tolerance`, trimmed along their
 contours, NurbsSweptSurface an Extrusion, interpolators along curves those along lines, with more keys; places on
 Earth become metres around the scene's GeoOrigin, or around the first place where there is none, with Y up there and

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 
 #include "passes/lower_x3d/foreign_fields.h"
 #include "passes/lower_x3d/revolution.h"
+#include "passes/lower_x3d/sphere_segment.h"
 #include "passes/lower_x3d/two_sides.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/decompose.h"
@@ -31,7 +33,7 @@ using PlantParts = std::vector<PlantPart>;
 
 class PlantShape {
  public:
-  PlantShape(Scene& scene, NodeId n) : scene_(scene), n_(n), from_(scene, n) {}
+  PlantShape(Scene& scene, NodeId n, Diagnostics& diag) : scene_(scene), n_(n), diag_(diag), from_(scene, n) {}
 
   /// Empty: it is none.
   PlantParts make() {
@@ -47,7 +49,8 @@ class PlantShape {
                                    {"RectangularTorus", &PlantShape::rectangular_torus},
                                    {"Nozzle", &PlantShape::nozzle},
                                    {"Plane", &PlantShape::plane},
-                                   {"SolidOfRevolution", &PlantShape::solid_of_revolution}};
+                                   {"SolidOfRevolution", &PlantShape::solid_of_revolution},
+                                   {"SphereSegment", &PlantShape::sphere_segment}};
     for (const Row& row : rows)
       if (scene_.type(n_).name == row.name) return (this->*row.make)();
     return {};
@@ -187,14 +190,31 @@ class PlantShape {
   PlantParts solid_of_revolution() {
     const Revolution r{from_.numbers("crossSection"), from_.number("angle", 2 * std::numbers::pi),
                        from_.number("creaseAngle", 0), from_.flag("caps", true)};
+    if (r.profile.size() / 2 > Revolution::most_points) report_first(Revolution::most_points, "points of crossSection");
     const NodeId to = faces_of(scene_, r, scene_.where(n_));
     if (!to) return {};
     set_solid(to, k::indexed_face_set::solid);
     return {{to}};
   }
 
+  PlantParts sphere_segment() {
+    const SphereNet net{size("radius", 1), from_.numbers("longitude"), from_.numbers("latitude")};
+    if (std::max(net.longitude.size(), net.latitude.size()) > SphereNet::most_lines)
+      report_first(SphereNet::most_lines, "lines of longitude and latitude");
+    const NodeId to = faces_of(scene_, net, scene_.where(n_));
+    if (!to) return {};
+    set_solid(to, k::indexed_face_set::solid);
+    return {{to}};
+  }
+
+  void report_first(std::size_t count, std::string_view of_what) {
+    diag_.report(Diag::drawn_otherwise, scene_.where(n_), scene_.type(n_).name,
+                 "with the first " + std::to_string(count) + " " + std::string(of_what));
+  }
+
   Scene& scene_;
   NodeId n_;
+  Diagnostics& diag_;
   ForeignFields from_;
 };
 
@@ -247,7 +267,7 @@ bool is_tied(const Scene& scene, NodeId n, const std::vector<char>& routed) {
 
 }  // namespace
 
-bool lower_plant_shapes(Scene& scene) {
+bool lower_plant_shapes(Scene& scene, Diagnostics& diag) {
   if (!any_node(scene, [&](NodeId n) { return static_cast<bool>(foreign_geometry(scene, n)); })) return false;
   const auto driven = routed_nodes(scene);
   std::map<std::uint32_t, PlantParts> made;  // by geometry
@@ -256,7 +276,7 @@ bool lower_plant_shapes(Scene& scene) {
     const NodeId geometry = foreign_geometry(scene, n);
     if (!geometry || is_tied(scene, n, driven) || is_tied(scene, geometry, driven)) continue;
     const auto [at, is_new] = made.try_emplace(geometry.value);
-    if (is_new) at->second = PlantShape(scene, geometry).make();
+    if (is_new) at->second = PlantShape(scene, geometry, diag).make();
     if (at->second.empty()) continue;
     if (is_new) scene.set_name(at->second[0].geometry, scene.name(geometry));
     give(scene, n, at->second);

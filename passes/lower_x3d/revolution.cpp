@@ -11,12 +11,11 @@ namespace wrlkit::x3d {
 namespace {
 
 constexpr int turn_sides = 64;
-constexpr std::size_t most_profile = 10'000;
 
 class Turned {
  public:
   explicit Turned(const Revolution& r) : angle_(std::clamp(r.angle, -2 * std::numbers::pi, 2 * std::numbers::pi)) {
-    for (std::size_t i = 0; i + 1 < std::min(r.profile.size(), 2 * most_profile); i += 2)
+    for (std::size_t i = 0; i + 1 < std::min(r.profile.size(), 2 * Revolution::most_points); i += 2)
       if (std::isfinite(r.profile[i]) && std::isfinite(r.profile[i + 1]))
         profile_.push_back({r.profile[i], r.profile[i + 1]});
     closed_ = profile_.size() > 2 && profile_.front() == profile_.back();

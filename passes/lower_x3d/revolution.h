@@ -5,7 +5,10 @@
 namespace wrlkit::x3d {
 
 struct Revolution {
-  std::vector<double> profile;  // pairs of x and the distance from X; closed where its first point comes last again
+  static constexpr std::size_t most_points = 10'000;
+
+  std::vector<double> profile;  // pairs of x and the distance from X; closed where its first point comes last again; at
+                                // most most_points are taken
   double angle, crease_angle;   // radians
   bool caps;                    // of what is turned by less than a whole turn
 };

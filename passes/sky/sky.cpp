@@ -1,6 +1,7 @@
 #include "passes/sky/sky.h"
 
 #include "passes/sky/dome.h"
+#include "passes/sky/panorama.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -120,12 +121,14 @@ NodeId bound_background(const Scene& scene) {
 
 }  // namespace
 
-Outcome sky(Scene& scene, const SkyOptions&, PassContext&) {
+Outcome sky(Scene& scene, const SkyOptions& options, PassContext& ctx) {
   const NodeId background = bound_background(scene);
   if (!background) return Outcome::unchanged;
   Sky made(scene, background);
   if (made.is_made()) return Outcome::unchanged;
   made.make();
+  if (options.picture && ctx.resources)
+    if (const auto png = sky_panorama(scene, ctx)) ctx.resources->add_made({"sky.png", png, true});
   return Outcome::changed;
 }
 

@@ -169,6 +169,29 @@ async function scripts() {
   await close();
 }
 
+/// With directOutput a Script reads and sets the nodes that it holds; its program is in a file beside the world. What it may not do is named.
+async function held_nodes() {
+  fs.writeFileSync(path.join(folder, 'held.js'), `function press() { var at = slider.translation; at.x = at.x + 1; slider.translation = at;
+    lamp[0].whichChoice = lamp[0].whichChoice + 2; turned.rotation = new SFRotation(0, 0, 1, 1.5707963); }
+    function over(on) { if (!on) paint.diffuseColor = new SFColor(1, 1, 1); else try { Browser.createVrmlFromString('Group {}'); } catch (e) { reason = e.message; } }`);
+  const fields = `directOutput TRUE initializeOnly SFNode slider USE Slider initializeOnly MFNode lamp [ USE Lamp USE Slider ] initializeOnly SFNode turned USE Slider
+    initializeOnly SFNode paint DEF Paint Material { diffuseColor 1 0 0 } initializeOnly SFString reason ""`;
+  const {page, faults, close} = await open_world('held_nodes', scripted('', fields).replace('ecmascript: ', 'held.js'));
+  const state = () => page.evaluate(in_page.state, {points: [[2, 0, 0]], nodes: ['Slider']});
+  await page.getByLabel('Run the world').check();
+  await page.getByLabel('Run its Scripts').check();
+  const until = Date.now() + 30_000;
+  while (!is_color((await state()).colors[0], 'b')) {
+    assert(Date.now() < until, 'the Script sets nothing');
+    if (is_color((await state()).colors[0], 'r')) await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+    await page.waitForTimeout(300);
+  }
+  assert.deepEqual((await state()).places[0], [1, 2, 0]);
+  await page.waitForFunction(() => document.querySelector('#script-faults')?.textContent.includes('S reports Error: diffuseColor of Material cannot be set'));
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 /// A Script that does not end is ended, one that asks for the network or the page gets nothing, one with a fault is named; the page goes on.
 async function hostile_scripts() {
   let asked = 0;
@@ -242,6 +265,7 @@ async function scripts_that_outlive_their_calls() {
 
 try {
   await scripts();
+  await held_nodes();
   await hostile_scripts();
   await scripts_that_outlive_their_calls();
   for (const world of [...worlds, hidden_levels]) if (!world.events) await runs(world);

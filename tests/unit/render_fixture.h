@@ -16,8 +16,16 @@ struct Pictures : Resources {
   std::shared_ptr<const Blob> bytes(std::span<const std::string_view>, Span, Diagnostics&) override { return {}; }
   LinkedWorld world(std::span<const std::string_view>, Span, Diagnostics&) override { return {}; }
   std::shared_ptr<const Image> image(std::span<const std::string_view> urls, Span, Diagnostics&) override {
+    if (const MadeFile* made = find_made(urls[0])) return made_image(*made);
     auto i = images.find(urls[0]);
     return i == images.end() ? nullptr : i->second;
+  }
+  /// What a pass has made.
+  static std::shared_ptr<const Image> made_image(const MadeFile& file) {
+    std::string fault;
+    auto image = decode_image(*file.bytes, file.name, fault);
+    REQUIRE(image);
+    return std::make_shared<const Image>(std::move(*image));
   }
 };
 

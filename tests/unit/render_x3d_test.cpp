@@ -51,3 +51,19 @@ TEST_CASE("render: alphaMode") {
   CHECK(seen(strong, "alphaMode \"MASK\"") == Rgb{255, 255, 255});
   CHECK(seen(strong, "alphaMode \"MASK\" alphaCutoff 0.7") == Rgb{0, 0, 0});
 }
+
+TEST_CASE("render: widths of lines and sizes of points") {
+  const auto lit = [](const std::string& properties, const std::string& geometry) {
+    Studio s;
+    s.header = "#X3D V4.0 utf8\nPROFILE Full\n";
+    return area(s.render(view + dark + shape(geometry, "emissiveColor 1 1 1", properties)));
+  };
+  const std::string line = "IndexedLineSet { coord Coordinate { point [ -4 0 0, 4 0 0 ] } coordIndex [ 0 1 ] }",
+                    dot = "PointSet { coord Coordinate { point [ 0 0 0 ] } }";
+  const double thin = lit("", line), small = lit("", dot);
+  CHECK(lit("lineProperties LineProperties { linewidthScaleFactor 4 }", line) / thin == Approx(4).epsilon(0.1));
+  CHECK(lit("lineProperties LineProperties { linewidthScaleFactor 4 applied FALSE }", line) == thin);
+  CHECK(lit("pointProperties PointProperties { pointSizeScaleFactor 3 pointSizeMaxValue 9 }", dot) / small ==
+        Approx(9).epsilon(0.25));
+  CHECK(lit("pointProperties PointProperties { pointSizeScaleFactor 3 }", dot) == small);
+}

@@ -9,6 +9,7 @@
 #include "scenegraph/range_text.h"
 #include "tools/cli/recipe.h"
 #include "tools/verbs/message_help.h"
+#include "tools/verbs/node_fates.h"
 
 namespace wrlkit {
 namespace {
@@ -126,6 +127,8 @@ std::string nodes_page() {
       out += fmt::format("| {} | {} | {} | {} | {} | {} |\n", access_word(f.access), info(f.type).name,
                          f.name_in(Dialect::vrml97), f.default_text, limits_text(f), doc_text(t, f));
   }
+  out += "\n## What becomes of the nodes of X3D\n\n\"Kept\" is: in VRML and X3D output, and in extras of glTF.\n\n";
+  out += node_fates_table();
   out +=
       "\n## Nodes of browsers\n\nNo standard has these. They are kept as they are, with any field, and what stands "
       "below them is drawn.\n\n| node | browser | what it is | what becomes of it |\n|---|---|---|---|\n";

@@ -12,6 +12,9 @@
 #include "convert/placing.h"
 #include "convert/shown_surface.h"
 #include "geometry/progressive/progressive_world.h"
+#include "passes/startup/script_text.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 #include "tools/cli/session.h"
 #include "tools/report/deviation_map.h"
 #include "tools/verbs/serve.h"
@@ -61,6 +64,7 @@ class Viewer {
       if (compared) surfaces_.back()->add(n, mesh);
       return mesh;
     };
+    take_scripts(scene);
     const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras,
                               .behaviour = GltfOptions::Behaviour::interactivity};
     auto take = [&](std::string_view bytes) { world.glb += bytes; };
@@ -69,6 +73,22 @@ class Viewer {
     if (!usual || (!compared && n_triangles <= usual_most_triangles))
       for (const auto& criterion : usual ? usual_criteria() : s_.flags().criteria) add_collapse(authored, criterion);
     return true;
+  }
+
+  /// Programs in files become parts of the page, which reads no files.
+  void take_scripts(Scene& scene) {
+    constexpr std::size_t longest = 1'000'000;
+    for (const NodeId n : all_nodes(scene)) {
+      if (!is_script_in_file(scene, n)) continue;
+      const auto text = script_text(scene, n, &s_.resources(), s_.diag());
+      if (!text) continue;
+      if (text->size() > longest) {
+        s_.diag().report(Diag::too_large, scene.where(n), "the program of a Script", "1 MB", text->size());
+        continue;
+      }
+      const std::string url = "javascript:" + *text;
+      scene.set(n, nodes::script::url, std::vector<std::string_view>{url});
+    }
   }
 
   void add_collapse(Scene scene, const std::string& name) {

@@ -10,6 +10,13 @@ export interface ScriptField {
   value?: unknown;
 }
 
+/// A node of the world that a Script holds, by its number. `event`: what is sent when the Script sets that field; none: it may not.
+export interface HeldNode {
+  type: string;
+  name: string;
+  fields: Record<string, {type: string; value?: unknown; event?: string}>;
+}
+
 /// What comes out of the frame. ready: the environment is there, and the program begins. silent: its Worker was ended, for it did not answer.
 export type FromFrame = {script: number; ready: true} | {script: number; silent: true} | {script: number; answer: string} | {script: number; fault: string};
 export type ToFrame = {script: number; start: string; program: string} | {script: number; call: string} | {script: number; end: true};
@@ -83,14 +90,34 @@ export const frameText = `<!doctype html><meta http-equiv="Content-Security-Poli
 
 /// In the Worker. `begin` is what annex_c.js gives; `program` is a function around the program, which sees nothing of this. Of what the Worker
 /// has, it keeps the language: no timers, messages, requests or Workers of its own.
-function environment(makeEnvironment: (ask: () => string, clock: () => number) => (global: unknown) => {load(fields: string): void; call(what: string): string}, fields: string, program: () => Record<string, unknown>): void {
-  const global: object = self, post = postMessage.bind(self);
-  const refused = JSON.stringify({error: 'nodes of the world and Browser functions that change it are out of reach on this page'});
-  const environmentOf = makeEnvironment(() => refused, () => Date.now() / 1000);
+function environment(makeEnvironment: (ask: (what: string) => string, clock: () => number) => (global: unknown) => {load(fields: string): void; call(what: string): string}, fields: string, nodes: string, program: () => Record<string, unknown>): void {
+  const global: object = self, post = postMessage.bind(self), {parse, stringify} = JSON;
+  const held = parse(nodes) as HeldNode[], sets = new Map<string, unknown>();
+  const fieldOf = (node: HeldNode | undefined, name: string): HeldNode['fields'][string] | undefined =>
+    node?.fields[name] ?? node?.fields[name.replace(/^set_|_changed$/g, '')];
+  const answer = (asked: {op: string; node?: number; field?: string; text?: string; value?: unknown}): object => {
+    const node = held[asked.node ?? -1], field = fieldOf(node, asked.field ?? '');
+    if (asked.op === 'get') return field && field.value !== undefined ? {type: field.type, value: field.value} : {};
+    if (asked.op === 'describe') return {type: node?.type ?? '', name: node?.name ?? ''};
+    if (asked.op === 'named') return {node: held.findIndex(n => n.name === asked.text) >= 0 ? held.findIndex(n => n.name === asked.text) : null};
+    if (asked.op !== 'set') return {error: 'Browser functions that change the world are out of reach on this page'};
+    if (!field?.event) return {error: `${asked.field ?? ''} of ${node?.type ?? 'that node'} cannot be set on this page`};
+    field.value = asked.value;
+    sets.set(field.event, asked.value);
+    return {};
+  };
+  const environmentOf = makeEnvironment(text => stringify(answer(parse(text) as Parameters<typeof answer>[0])), () => Date.now() / 1000);
   let script: {load(fields: string): void; call(what: string): string} | null = null;
+  // What its functions send, and what they have set in nodes.
+  const call = (what: string): string => {
+    sets.clear();
+    const said = parse(script!.call(what)) as {events: object[]; error: string};
+    for (const [name, value] of sets) said.events.push({name, value});
+    return stringify(said);
+  };
   addEventListener('message', event => {
     if (typeof event.data === 'number') post(event.data);
-    else if (script) post(script.call(String(event.data)));
+    else if (script) post(call(String(event.data)));
   });
   const language = new Set<PropertyKey>(('globalThis Infinity NaN undefined eval isFinite isNaN parseFloat parseInt decodeURI decodeURIComponent encodeURI ' +
     'encodeURIComponent escape unescape Object Function Boolean Symbol Error AggregateError EvalError RangeError ReferenceError SyntaxError TypeError ' +
@@ -103,14 +130,14 @@ function environment(makeEnvironment: (ask: () => string, clock: () => number) =
   post(true);
   script.load(fields);
   for (const [name, value] of Object.entries(program())) if (value !== undefined) Object.defineProperty(global, name, {value, configurable: true});
-  post(script.call('{"name":"initialize"}'));
+  post(call('{"name":"initialize"}'));
 }
 
 const reserved = /^(await|break|case|catch|class|const|continue|debugger|default|delete|do|else|enum|export|extends|false|finally|for|function|if|import|in|instanceof|let|new|null|return|static|super|switch|this|throw|true|try|typeof|var|void|while|with|yield|arguments|eval)$/;
 const isName = (name: string): boolean => /^[A-Za-z_$][\w$]*$/.test(name) && !reserved.test(name);
 
 /// The file of a Worker. `functions`: what may be called.
-export function workerText(program: string, fields: readonly ScriptField[], functions: readonly string[]): string {
+export function workerText(program: string, fields: readonly ScriptField[], nodes: readonly HeldNode[], functions: readonly string[]): string {
   const found = functions.filter(isName).map(name => `${JSON.stringify(name)}: typeof ${name} === 'function' ? ${name} : undefined`);
-  return `(${environment.toString()})(\n${annexC}\n, ${JSON.stringify(JSON.stringify({fields}))}, function () {\n${program}\nreturn {${found.join(', ')}};\n});`;
+  return `(${environment.toString()})(\n${annexC}\n, ${JSON.stringify(JSON.stringify({fields}))}, ${JSON.stringify(JSON.stringify(nodes))}, function () {\n${program}\nreturn {${found.join(', ')}};\n});`;
 }

@@ -3,6 +3,7 @@
 import {Quaternion, Vector3} from 'three';
 import {vrmlOf, type GltfFile} from '../world/file';
 import type {GraphFile} from './graph';
+import {HeldNodes} from './held_nodes';
 import type {Value} from './operations';
 import {frameText, workerText, type FromFrame, type ScriptField, type ToFrame} from './script_frame';
 
@@ -23,7 +24,7 @@ interface Running {
   timer: number;
 }
 
-interface Found { node: number; name: string; program: string; fields: ScriptField[]; inputs: Map<string, {type: string; field: string}> }
+interface Found { node: number; name: string; program: string; fields: ScriptField[]; inputs: Map<string, {type: string; field: string}>; held: HeldNodes }
 
 /// The Scripts of a file whose program is in it and whose events the graph knows.
 export function scriptsOf(file: GltfFile, graph: GraphFile | null): Found[] {
@@ -31,7 +32,9 @@ export function scriptsOf(file: GltfFile, graph: GraphFile | null): Found[] {
   return [...known].sort((a, b) => a - b).flatMap(node => {
     const said = vrmlOf(file.nodes?.[node]?.extras)['Script'] as {url?: unknown; interface?: unknown} | undefined;
     const program = programIn(said?.url);
-    return said && program !== null ? [{node, name: file.nodes?.[node]?.name ?? 'Script', program, ...interfaceOf(said.interface)}] : [];
+    if (!said || program === null) return [];
+    const set = `from-script:${node}:`, held = new HeldNodes(file, (graph?.events ?? []).flatMap(e => e.id?.startsWith(set) ? [e.id.slice(set.length)] : []));
+    return [{node, name: file.nodes?.[node]?.name ?? 'Script', program, held, ...interfaceOf(said.interface, held)}];
   }).slice(0, mostScripts);
 }
 
@@ -43,22 +46,21 @@ function programIn(url: unknown): string | null {
   return null;
 }
 
-function interfaceOf(said: unknown): Pick<Found, 'fields' | 'inputs'> {
+function interfaceOf(said: unknown, held: HeldNodes): Pick<Found, 'fields' | 'inputs'> {
   const fields: ScriptField[] = [], inputs: Found['inputs'] = new Map();
   for (const row of Array.isArray(said) ? said as unknown[][] : []) {
     const [access, type, name] = row.map(String) as [string, string, string];
     const inout = access === 'exposedField' || access === 'inputOutput';
     if (access === 'eventIn' || access === 'inputOnly') inputs.set(name, {type, field: name});
-    else fields.push({name, type, out: inout || access === 'eventOut' || access === 'outputOnly', inout, ...(row.length > 3 ? {value: initial(type, row[3])} : {})});
+    else fields.push({name, type, out: inout || access === 'eventOut' || access === 'outputOnly', inout, ...(row.length > 3 ? {value: initial(name, type, row[3], held)} : {})});
     if (inout) for (const event of [name, `set_${name}`]) inputs.set(event, {type, field: name});
   }
   return {fields, inputs};
 }
 
 /// As annex_c.js takes values: flat lists, and numbers for nodes.
-function initial(type: string, value: unknown): unknown {
-  if (type === 'SFNode') return value ? 0 : null;
-  if (type === 'MFNode') return Array.isArray(value) ? value.map(() => 0) : [];
+function initial(name: string, type: string, value: unknown, held: HeldNodes): unknown {
+  if (type === 'SFNode' || type === 'MFNode') return held.take({name, type}, value);
   return Array.isArray(value) ? value.flat(3) : value;
 }
 
@@ -83,12 +85,13 @@ export class Scripts {
     document.body.append(this.frame);
   }
 
-  private start({node, name, program, fields, inputs}: Found): void {
+  private start({node, name, program, fields, inputs, held}: Found): void {
     const types = new Map(fields.filter(f => f.out).flatMap(f => [[f.name, f.type], [`${f.name}_changed`, f.type]] as [string, string][]));
+    for (const [event, type] of held.types) types.set(event, type);
     const functions = [...new Set(['initialize', 'eventsProcessed', ...inputs.keys()])];
     const script: Running = {name, types, inputs, waiting: [], busy: true, started: false, timer: 0};
     this.running.set(node, script);
-    this.post({script: node, start: workerText(program, fields, functions), program});
+    this.post({script: node, start: workerText(program, fields, held.nodes, functions), program});
     this.limit(node, script, longestStart);
   }
 

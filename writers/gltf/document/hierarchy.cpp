@@ -1,6 +1,9 @@
 #include "writers/gltf/document/hierarchy.h"
 
 #include <map>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -77,6 +80,7 @@ class Builder {
   bool first_visit(NodeId, bool has_place = true);
   void report_overflow(NodeId);
   void report_texcoords(NodeId geometry);
+  void report_drawing(NodeId appearance, bool faces);
   void report_group(NodeId);
   void add_lost(NodeId);
   void report_lost();
@@ -91,6 +95,7 @@ class Builder {
   std::map<std::string_view, std::size_t> lost_;  // by type: each Script has one of its own, but one name
   Span first_lost_;
   LostLight lost_light_;
+  std::set<std::pair<std::uint32_t, std::string_view>> drawing_reported_;  // nodes and fields
   bool full_ = false;
 };
 
@@ -138,6 +143,28 @@ void Builder::report_texcoords(NodeId geometry) {
                    "texCoord (TextureCoordinateGenerator)");
 }
 
+/// How lines, points and hatches are drawn: glTF has only plain ones.
+void Builder::report_drawing(NodeId appearance, bool faces) {
+  namespace a = nodes::appearance;
+  if (!m_.scene.is(appearance, nodes::Appearance)) return;
+  const auto report = [&](NodeId n, std::string_view field) {
+    if (drawing_reported_.insert({n.value, field}).second)
+      m_.diag.report(Diag::no_gltf_value, m_.scene.where(n), m_.scene.type(n).name, field);
+  };
+  const NodeId fill = m_.scene.get(appearance, a::fillProperties), line = m_.scene.get(appearance, a::lineProperties),
+               point = m_.scene.get(appearance, a::pointProperties);
+  if (faces && m_.scene.is(fill, nodes::FillProperties) && m_.scene.get(fill, nodes::fill_properties::hatched))
+    report(fill, "hatchStyle");
+  if (faces) return;
+  if (m_.scene.is(line, nodes::LineProperties) && m_.scene.get(line, nodes::line_properties::applied)) {
+    if (m_.scene.get(line, nodes::line_properties::linewidthScaleFactor) > 1) report(line, "linewidthScaleFactor");
+    if (m_.scene.get(line, nodes::line_properties::linetype) > 1) report(line, "linetype");
+  }
+  if (m_.scene.is(point, nodes::PointProperties) &&
+      m_.scene.get(point, nodes::point_properties::pointSizeScaleFactor) != 1)
+    report(point, "pointSizeScaleFactor");
+}
+
 std::uint32_t Builder::shape(NodeId n) {
   first_visit(n);
   Node node{.source = n};
@@ -153,6 +180,7 @@ std::uint32_t Builder::shape(NodeId n) {
   m_.meshes.note_use(geometry, f.world);
   if (!is_aside()) f.box.unite(m_.meshes.bounds(g, f.world));
   if (g.origin != none) node.transform = d_.add_transform({.translation = m_.meshes.origins()[g.origin]});
+  report_drawing(appearance, g.surface().faces);
   auto material = m_.materials.get(appearance, g.surface());
   node.attachment = Attachment::mesh;
   node.attached = m_.meshes.mesh(geometry, material);

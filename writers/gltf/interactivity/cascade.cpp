@@ -110,8 +110,21 @@ void Cascade::script(NodeId n) {
   const auto fields = scene_.type(n).fields;
   for (std::uint16_t slot = 0; slot < fields.size(); ++slot) {
     if (!events_.any_from(n, slot)) continue;
+    if (fields[slot].type == FieldType::SFNode || fields[slot].type == FieldType::MFNode) {
+      direct_output(n, slot);
+      continue;
+    }
     auto [flow, value] = scripts_.told(n, slot);
     send(std::move(flow), n, slot, value);
+  }
+}
+
+/// One event for each field of the nodes that it holds there.
+void Cascade::direct_output(NodeId n, Events::Slot slot) {
+  for (const Events::Hop& hop : events_.from(n, slot)) {
+    if (one_too_many(n)) break;
+    auto [flow, value] = scripts_.told(n, hop.route->event_out, scene_.type(hop.to).fields[hop.slot].type);
+    if (flow) receive(std::move(flow), hop, value);
   }
 }
 

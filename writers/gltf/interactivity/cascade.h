@@ -33,6 +33,7 @@ class Cascade {
   bool one_too_many(NodeId from);
   void receive(Graph::Flow, const Events::Hop&, const Graph::Value&);
   void utility(Graph::Flow, const Events::Hop&, const Graph::Value&);
+  void direct_output(NodeId script, Events::Slot field);
   void listen(Graph::Flow, NodeId sensor, const Graph::Value&);
   void filter(Graph::Flow, NodeId, const Graph::Value&);
   void toggle(Graph::Flow, NodeId);

@@ -1,6 +1,7 @@
 #include "writers/gltf/interactivity/events.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -92,15 +93,50 @@ bool can_be_sent(const Scene& scene, NodeId n, std::uint16_t slot) {
 
 Events::Events(const Scene& scene, const Motion& motion, bool on) : scene_(scene), on_(on) {
   if (!on) return;
-  for (const Route& r : scene.main.routes) {
-    const auto out = event_slot(scene, r.from, r.event_out), in = event_slot(scene, r.to, r.event_in);
-    if (!out || !in || field_type(scene, r.from, *out) != field_type(scene, r.to, *in)) continue;
-    const auto act = act_of(scene, r.to, *in);
-    if (act == Act::choose && hierarchy_children(scene, r.to).empty()) continue;
-    if (act && can_be_sent(scene, r.from, *out)) possible_.emplace(r.from.value, Possible{*out, {&r, r.to, *in, *act}});
-  }
+  add_routes();
+  for (const NodeId n : reachable(scene, scene.main))
+    if (is_script(scene, n) && scene.get(n, nodes::script::directOutput)) add_direct_output(n);
   find_useful(motion);
   collect();
+}
+
+void Events::add_routes() {
+  for (const Route& r : scene_.main.routes) {
+    const auto out = event_slot(scene_, r.from, r.event_out), in = event_slot(scene_, r.to, r.event_in);
+    if (!out || !in || field_type(scene_, r.from, *out) != field_type(scene_, r.to, *in)) continue;
+    if (can_be_sent(scene_, r.from, *out)) add(r, *out, *in);
+  }
+}
+
+void Events::add(const Route& r, Slot out, Slot in) {
+  const auto act = act_of(scene_, r.to, in);
+  if (act == Act::choose && hierarchy_children(scene_, r.to).empty()) return;
+  if (act) possible_.emplace(r.from.value, Possible{out, {&r, r.to, in, *act}});
+}
+
+/// To what it holds in its fields, also in those with several nodes: "all[2].translation".
+void Events::add_direct_output(NodeId script) {
+  constexpr std::size_t most_held = 1000;
+  const auto fields = scene_.type(script).fields;
+  for (auto slot = static_cast<Slot>(n_common_script_fields()); slot < fields.size(); ++slot) {
+    const FieldDef& f = fields[slot];
+    if (!f.has_value() || (f.type != FieldType::SFNode && f.type != FieldType::MFNode)) continue;
+    const auto held = scene_.value(script, slot).node_span();
+    for (std::size_t i = 0; i < std::min(held.size(), most_held); ++i) {
+      const std::string index = f.type == FieldType::MFNode ? "[" + std::to_string(i) + "]" : "";
+      if (held[i]) add_direct_output(script, slot, held[i], std::string(f.name) + index + ".");
+    }
+  }
+}
+
+void Events::add_direct_output(NodeId script, Slot field, NodeId held, const std::string& name) {
+  const auto fields = scene_.type(held).fields;
+  for (Slot slot = 0; slot < fields.size(); ++slot) {
+    if (is_script(scene_, held) || fields[slot].access == Access::out || !act_of(scene_, held, slot)) continue;
+    const auto& text = names_.emplace_back(name + std::string(fields[slot].name));
+    direct_.push_back({script, held, text, fields[slot].name});
+    add(direct_.back(), field, slot);
+  }
 }
 
 /// Backwards from what changes: an event that reaches such a node, or happens there, leads somewhere. Rings of ROUTEs
@@ -135,6 +171,13 @@ void Events::collect() {
   std::ranges::sort(sources_, {}, &NodeId::value);
 }
 
+/// A ROUTE of the file, not one that stands for what a Script sets.
+bool Events::is_of_scene(const Route& r) const {
+  const auto& all = scene_.main.routes;
+  const std::less<const Route*> before;
+  return !before(&r, all.data()) && before(&r, all.data() + all.size());
+}
+
 /// Everything that follows from what happens to a node.
 void Events::spread(NodeId source) {
   std::vector<NodeId> pending{source};
@@ -143,7 +186,8 @@ void Events::spread(NodeId source) {
     pending.pop_back();
     for (auto [at, end] = possible_.equal_range(n.value); at != end; ++at) {
       const auto& [slot, hop] = at->second;
-      if (!useful_.contains(hop.to.value) || !said_.insert(hop.route).second) continue;
+      auto& said = is_of_scene(*hop.route) ? said_ : said_directly_;
+      if (!useful_.contains(hop.to.value) || !said.insert(hop.route).second) continue;
       hops_[{n.value, slot}].push_back(hop);
       set_.insert({hop.to.value, hop.slot});
       pending.push_back(hop.to);

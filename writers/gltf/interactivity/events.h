@@ -3,11 +3,14 @@
 // is in the tables of events.cpp; everything else stays in extras and is reported, each kind once.
 //
 // A ROUTE counts when its event can happen and leads to something: a BooleanFilter that nothing listens to is left out,
-// and so is a TimeSensor that only drives a Script.
+// and so is a TimeSensor that only drives a Script. A Script with directOutput counts as one with a ROUTE to each field
+// of the nodes that it holds: "ball.translation" is what it sets as the translation of the node in its field `ball`.
 #pragma once
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <set>
+#include <string>
 
 #include "base/diagnostics.h"
 #include "scenegraph/scene.h"
@@ -69,9 +72,14 @@ class Events {
 
  private:
   using Key = std::pair<std::uint32_t, Slot>;
+  void add_routes();
+  void add_direct_output(NodeId script);
+  void add_direct_output(NodeId script, Slot field, NodeId held, const std::string& name);
+  void add(const Route&, Slot out, Slot in);
   void find_useful(const Motion&);
   void collect();
   void spread(NodeId);
+  bool is_of_scene(const Route&) const;
 
   const Scene& scene_;
   bool on_;
@@ -79,11 +87,13 @@ class Events {
     Slot out;
     Hop hop;
   };
+  std::deque<Route> direct_;  // as if there were such ROUTEs
+  std::deque<std::string> names_;
   std::multimap<std::uint32_t, Possible> possible_;  // by the node that sends, in the order of the file
   std::set<std::uint32_t> useful_;
   std::map<Key, std::vector<Hop>> hops_;
   std::set<Key> set_;
-  std::set<const Route*> said_;
+  std::set<const Route*> said_, said_directly_;
   std::vector<NodeId> sources_;
 };
 
