@@ -241,7 +241,6 @@ void Allocation::take(const Step& step) {
   max_ = std::max(max_, lower.price.max);
   n_drawn_ += p.n_places * (*p.rungs)[lower.rung].n_faces;
   at_[step.part] = step.to;
-  queue_.push(next_of(step.part));
 }
 
 bool Allocation::run_to(std::size_t n_drawn) {
@@ -261,7 +260,8 @@ bool Allocation::run_to(std::size_t n_drawn) {
       queue_.push(now);
       continue;
     }
-    take(last_step(now, n_drawn));
+    take(last_step(now, n_drawn));  // which may be one of another part, whose own step waits
+    if (at_[now.part] != gone) queue_.push(next_of(now.part));
   }
   return true;
 }

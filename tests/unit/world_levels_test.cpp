@@ -367,6 +367,20 @@ TEST_CASE("ladder: texture coordinates stay where they are on the surface", "[le
   }
 }
 
+TEST_CASE("world levels: all numbers of triangles, until hardly anything is left", "[levels]") {
+  std::string text = tank_with_bolts(4);
+  for (int i = 1; i < 12; ++i)
+    text += at(4. * i, 10, 0, "Shape { geometry Sphere { radius " + std::to_string(0.3 * i) + " } }");
+  TestWorld w(text);
+  WorldSimplifyOptions options;
+  options.every = 150;
+  const WorldLevels levels(w.scene, options, w.ctx);
+  REQUIRE(levels.points().size() > 20);
+  for (std::size_t i = 1; i < levels.points().size(); ++i)
+    CHECK(levels.points()[i].n_drawn < levels.points()[i - 1].n_drawn);
+  CHECK(levels.points().back().n_drawn <= 150);
+}
+
 TEST_CASE("world levels: a pipe of few sides is as smooth as the pipe was, a box has flat faces", "[levels]") {
   TestWorld w("DEF Pipe Shape { geometry Cylinder { height 20 } }" +
               at(5, 0, 0,
