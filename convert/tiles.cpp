@@ -85,17 +85,16 @@ class Making {
   bool is_mine(std::uint32_t cell) const;
   bool is_whole() const;
   bool make_levels();
-  using Range = std::pair<std::uint32_t, std::uint32_t>;
   /// Cells of which all coarse tiles are made at once.
   struct Group {
     std::vector<Piece> pieces;  // of what they are made from; in the end without meshes
     std::size_t n_drawn = 0;
-    std::vector<std::vector<std::uint32_t>> levels;   // cells, those that are deepest first
-    std::unordered_map<std::uint32_t, Range> ranges;  // of each cell, in the pieces
+    std::vector<std::vector<std::uint32_t>> levels;        // cells, those that are deepest first
+    std::unordered_map<std::uint32_t, PieceRange> ranges;  // of each cell, in the pieces
   };
   bool make_group(std::uint32_t top);
   Group gather_group(std::uint32_t top);
-  static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, Range range);
+  static std::vector<Piece> pieces_within(const Group& group, std::span<const Coarse> level, PieceRange range);
   bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
   bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
   bool save(std::uint32_t cell, Task& task);
@@ -283,10 +282,13 @@ bool Making::make_levels() {
 /// pieces; of a larger one itself, from its children.
 bool Making::make_group(std::uint32_t top) {
   Group group = gather_group(top);
-  std::vector<std::size_t> counts;
-  for (const auto& level : group.levels)
-    counts.push_back(plan_.fits(top) ? plan_.count_of(level, group.n_drawn) : plan_.target(top));
-  auto coarse = coarser(group.pieces, counts, looks_, ctx_);
+  std::vector<CoarseLevel> levels;
+  for (const auto& cells : group.levels) {
+    const auto count = plan_.fits(top) ? plan_.count_of(cells, group.n_drawn) : plan_.target(top);
+    auto& level = levels.emplace_back(CoarseLevel{count, {}});
+    for (const auto i : cells) level.cells.push_back(group.ranges.at(i));
+  }
+  auto coarse = coarser(group.pieces, levels, options_.triangles, looks_, ctx_);
   for (auto k = group.levels.size(); k-- > 0;) {
     const auto make = [&](std::uint32_t i, Task& task) {
       return make_coarse(i, pieces_within(group, coarse[k], group.ranges.at(i)), task);
@@ -344,7 +346,7 @@ std::vector<Piece> Making::pieces_of_cell(std::uint32_t cell) const {
   return out;
 }
 
-std::vector<Piece> Making::pieces_within(const Group& group, std::span<const Coarse> level, Range range) {
+std::vector<Piece> Making::pieces_within(const Group& group, std::span<const Coarse> level, PieceRange range) {
   std::vector<Piece> out;
   const auto first = std::ranges::lower_bound(level, range.first, {}, &Coarse::from);
   for (auto i = first; i != level.end() && i->from < range.second; ++i) {
@@ -357,8 +359,9 @@ std::vector<Piece> Making::pieces_within(const Group& group, std::span<const Coa
 bool Making::make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task) {
   std::size_t drawn = 0;
   for (const auto& p : pieces) drawn += n_drawn(p.mesh);
-  if (const std::size_t most = options_.triangles; drawn > most) {
-    auto coarse = coarser(pieces, {&most, 1}, looks_, task);
+  if (const auto most = options_.triangles; drawn > most) {
+    const CoarseLevel level{most, {{0, static_cast<std::uint32_t>(pieces.size())}}};
+    auto coarse = coarser(pieces, {&level, 1}, most, looks_, task);
     std::vector<Piece> fewer;
     for (auto& c : coarse[0]) {
       const Piece& from = pieces[c.from];

@@ -26,6 +26,17 @@ constexpr double flat = 1e-24;  // squared sine below which a triangle is its ed
 
 double squared(const Vec3& v) { return dot(v, v); }
 
+/// As area_normal, which others could replace, so that compilers do not inline it.
+Vec3 normal_of(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+
+/// Whether the plane of a triangle with this area normal is farther from the origin than the root of `reach`. Of thin
+/// ones, whose planes rounding turns, that is not known.
+bool is_beyond(const std::array<Vec3, 3>& t, const Vec3& n, double reach) {
+  constexpr double thin = 1e-8, rounding = 1 + 1e-6;
+  const double height = dot(t[0], n), nn = squared(n);
+  return height * height > rounding * reach * nn && nn > thin * squared(t[1] - t[0]) * squared(t[2] - t[0]);
+}
+
 /// Squared distance of the origin to the segment from a to b.
 double to_segment(const Vec3& a, const Vec3& b) {
   Vec3 ab = b - a;
@@ -65,11 +76,11 @@ Triangles triangles_of(const Mesh& mesh) {
   return {mesh.positions.span(), mesh.corners};
 }
 
-Vec3 area_normal(const std::array<Vec3, 3>& t) { return cross(t[1] - t[0], t[2] - t[0]); }
+Vec3 area_normal(const std::array<Vec3, 3>& t) { return normal_of(t); }
 
 double squared_distance(const Vec3& p, const std::array<Vec3, 3>& corners) {
   const std::array<Vec3, 3> t{corners[0] - p, corners[1] - p, corners[2] - p};
-  return to_triangle(t, area_normal(t));
+  return to_triangle(t, normal_of(t));
 }
 
 bool is_usable(const std::array<Vec3, 3>& corners) {
@@ -183,8 +194,9 @@ struct ClosestPoint::Builder {
                        [&](auto& a, auto& b) { return a.middle(axis) < b.middle(axis); });
       return halfway;
     }
+    const double bins_a_unit = n_bins / static_cast<double>(extent);
     auto bin_of = [&](const Item& i) {
-      return std::min(n_bins - 1, static_cast<int>((i.middle(axis) - low) / extent * n_bins));
+      return std::min(n_bins - 1, static_cast<int>((i.middle(axis) - low) * bins_a_unit));
     };
     Bin bins[n_bins];
     for (auto i = first; i != last; ++i) {
@@ -283,8 +295,9 @@ struct ClosestPoint::Search {
     ++best.n_tried;
     auto t = tree.surface_[triangle];
     for (auto& corner : t) corner = corner - p;
-    Vec3 n = area_normal(t);
-    double d2 = to_triangle(t, n);
+    const Vec3 n = normal_of(t);
+    if (is_beyond(t, n, reach)) return;
+    const double d2 = to_triangle(t, n);
     if (!(d2 <= reach)) return;
     double d = std::sqrt(d2), front = faces_something ? turned_to(n) : 0;
     n_equal = d < best.distance - tree.same_ ? 0 : n_equal + 1;
@@ -312,7 +325,8 @@ struct ClosestPoint::Search {
   double to(const Box& box, const Vec3& q) const {
     double sum = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-      double d = std::max({box.low[i] - q[i], q[i] - box.high[i], 0.0});
+      const double below = box.low[i] - q[i], above = q[i] - box.high[i];
+      const double outside = below > above ? below : above, d = outside > 0 ? outside : 0;
       sum += d * d;
     }
     return sum;

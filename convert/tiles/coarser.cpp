@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t share_of_lines = 10;  // of what a tile draws
 constexpr std::size_t welded_at_once = 256;
+constexpr double step = 0.95;  // from a count to the next at which a cell may be taken
 
 bool has_surface(const Piece& p) { return p.mesh.is_triangles(); }
 
@@ -45,23 +46,19 @@ class Coarser {
       if (has_surface(pieces_[i])) geometry_[i] = add(pieces_[i], looks);
   }
 
-  std::vector<std::vector<Coarse>> run(std::span<const std::size_t> counts) {
+  std::vector<std::vector<Coarse>> run(std::span<const CoarseLevel> levels, std::size_t most) {
     std::vector<std::vector<Coarse>> out;
     std::vector<std::size_t> of_surfaces;
-    for (const auto count : counts) of_surfaces.push_back(count - add_lines(out.emplace_back(), count));
-    WorldSimplifyOptions options;
-    options.counts = of_surfaces;
-    const WorldLevels levels(scene_, options, silent_);
-    const auto n_drawn = [](const auto& point) { return point.n_drawn; };
-    if (!levels.points().empty())
-      read_all(levels, levels.points(), n_drawn, of_surfaces, out);
-    else {
-      const SimplifiedWorld world(scene_, options, silent_);
-      std::vector<InteractionPoint> points;
-      for (std::size_t i = 0; i < world.n_points(); ++i) points.push_back(world.point(i));
-      read_all(
-          world, points, [](const auto& point) { return point.n_faces; }, of_surfaces, out);
-    }
+    for (const auto& level : levels) of_surfaces.push_back(level.count - add_lines(out.emplace_back(), level.count));
+    const WorldSimplifyOptions options{.counts = with_steps(of_surfaces)};
+    const WorldLevels world(scene_, options, silent_);
+    if (world.points().empty())
+      read_levels(SimplifiedWorld(scene_, {.counts = of_surfaces}, silent_), of_surfaces, levels, out);
+    else
+      for (std::size_t k = 0; k < levels.size(); ++k) {
+        const auto first = first_point(world.points(), of_surfaces[k]);
+        read(world.scene_at(points_of(world, first, levels[k], out[k], most)), levels[k], out[k]);
+      }
     for (auto& level : out) std::ranges::sort(level, {}, &Coarse::from);
     return out;
   }
@@ -107,33 +104,79 @@ class Coarser {
     return geometry;
   }
 
-  /// For each count the first point that draws no more, or the last; the scene itself where there is none.
-  void read_all(const auto& world, const auto& points, const auto& n_drawn, std::span<const std::size_t> counts,
-                std::vector<std::vector<Coarse>>& out) {
+  /// The counts, and those between them at which cells may be taken that would draw too much.
+  static std::vector<std::size_t> with_steps(std::span<const std::size_t> counts) {
+    std::vector<std::size_t> out;
     for (std::size_t k = 0; k < counts.size(); ++k) {
-      auto at = std::ranges::find_if(points, [&](const auto& point) { return n_drawn(point) <= counts[k]; });
-      if (at == points.end() && !points.empty()) --at;
-      if (at == points.end())
-        read(scene_, out[k]);
-      else
-        read(world.scene_at(static_cast<std::size_t>(at - points.begin())), out[k]);
+      const auto last = k + 1 < counts.size() ? counts[k + 1] : counts[k];
+      for (auto count = counts[k]; count >= last && count > 0;) {
+        out.push_back(count);
+        count = std::min(count - 1, static_cast<std::size_t>(step * static_cast<double>(count)));
+      }
+    }
+    return out;
+  }
+
+  /// That draws no more, or the last.
+  static std::uint32_t first_point(std::span<const WorldLevels::Point> points, std::size_t count) {
+    const auto at = std::ranges::find_if(points, [&](const auto& point) { return point.n_drawn <= count; });
+    return static_cast<std::uint32_t>(std::min<std::ptrdiff_t>(at - points.begin(), std::ssize(points) - 1));
+  }
+
+  /// For each geometry the first point from `first` on at which its cell draws no more than `most`, or the last.
+  std::vector<std::uint32_t> points_of(const WorldLevels& world, std::uint32_t first, const CoarseLevel& level,
+                                       std::span<const Coarse> lines, std::size_t most) const {
+    std::vector<std::uint32_t> out(scene_.node_count(), WorldLevels::as_it_was);
+    auto open = level.cells;
+    for (auto point = first; !open.empty(); ++point) {
+      const auto faces = world.faces_at(point);
+      const bool is_last = point + 1 == world.points().size();
+      std::erase_if(open, [&](const PieceRange& cell) {
+        if (!is_last && drawn_in(cell, faces, lines) > most) return false;
+        for (auto i = cell.first; i < cell.second; ++i)
+          if (geometry_[i]) out[geometry_[i].value] = point;
+        return true;
+      });
+    }
+    return out;
+  }
+
+  std::size_t drawn_in(const PieceRange& cell, std::span<const std::size_t> faces,
+                       std::span<const Coarse> lines) const {
+    std::size_t out = 0;
+    for (auto i = cell.first; i < cell.second; ++i)
+      if (geometry_[i]) out += faces[geometry_[i].value];
+    for (const auto& line : lines)
+      if (line.from >= cell.first && line.from < cell.second) out += n_drawn(line.mesh);
+    return out;
+  }
+
+  /// Of a single part. For each level the first point that draws no more, or the last; the scene itself where there is
+  /// none.
+  void read_levels(const SimplifiedWorld& world, std::span<const std::size_t> counts,
+                   std::span<const CoarseLevel> levels, std::vector<std::vector<Coarse>>& out) {
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      std::size_t at = 0;
+      while (at + 1 < world.n_points() && world.point(at).n_faces > counts[k]) ++at;
+      read(world.n_points() > 0 ? world.scene_at(at) : scene_, levels[k], out[k]);
     }
   }
 
   /// Pieces that have left are in no Shape any more.
-  void read(const Scene& scene, std::vector<Coarse>& out) {
+  void read(const Scene& scene, const CoarseLevel& level, std::vector<Coarse>& out) {
     std::vector<char> shown(scene.node_count());
     for (const NodeId shape : scene.main.roots)
       if (const NodeId geometry = scene.get(shape, nodes::shape::geometry)) shown[geometry.value] = 1;
     SurfaceReader reader(scene, silent_);
-    for (std::uint32_t i = 0; i < pieces_.size(); ++i) {
-      if (!geometry_[i] || !shown[geometry_[i].value]) continue;
-      Coarse left{i, {}};
-      reader.read({geometry_[i], {}}, left.mesh);
-      if (left.mesh.corners.empty()) continue;
-      simplify::transform(left.mesh, translation_matrix(box_.centre()));
-      out.push_back(std::move(left));
-    }
+    for (const auto& [begin, end] : level.cells)
+      for (auto i = begin; i < end; ++i) {
+        if (!geometry_[i] || !shown[geometry_[i].value]) continue;
+        Coarse left{i, {}};
+        reader.read({geometry_[i], {}}, left.mesh);
+        if (left.mesh.corners.empty()) continue;
+        simplify::transform(left.mesh, translation_matrix(box_.centre()));
+        out.push_back(std::move(left));
+      }
   }
 
   std::span<Piece> pieces_;  // meshes of surfaces are in the scene
@@ -146,9 +189,9 @@ class Coarser {
 
 }  // namespace
 
-std::vector<std::vector<Coarse>> coarser(std::span<Piece> pieces, std::span<const std::size_t> counts,
+std::vector<std::vector<Coarse>> coarser(std::span<Piece> pieces, std::span<const CoarseLevel> levels, std::size_t most,
                                          const Looks& looks, const Task& ctx) {
-  return Coarser(pieces, looks, ctx).run(counts);
+  return Coarser(pieces, looks, ctx).run(levels, most);
 }
 
 }  // namespace wrlkit::tiles

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/stop.h"
 #include "convert/tiles/soup.h"
@@ -122,6 +123,43 @@ double distance_from_full(const Soup& coarse, std::span<const FullTile> full, co
   return farthest.bound();
 }
 
+/// The surfaces of full tiles, ready to be asked. The first ones stay for the next turn, as far as there is room.
+class FullSurfaces {
+ public:
+  FullSurfaces(std::span<const FullTile> tiles, const Vec3& origin)
+      : tiles_(tiles), origin_(origin), kept_(tiles.size()) {}
+
+  struct Surface {
+    Soup soup;
+    Triangles triangles;
+    ClosestPoint nearest;
+
+    Surface(std::span<const Piece> pieces, const Vec3& origin)
+        : soup(pieces, origin), triangles(soup.triangles()), nearest(triangles) {}
+  };
+
+  /// Valid until another one is read.
+  const Surface& read(std::size_t tile) {
+    if (kept_[tile]) return *kept_[tile];
+    auto surface = std::make_unique<Surface>(tiles_[tile].read(), origin_);
+    const auto n = surface->triangles.size();
+    const bool stays = n_kept_ + n <= most_kept;
+    if (stays) n_kept_ += n;
+    auto& to = stays ? kept_[tile] : last_;
+    to = std::move(surface);
+    return *to;
+  }
+
+ private:
+  static constexpr std::size_t most_kept = 200'000;  // triangles: some 20 MB
+
+  std::span<const FullTile> tiles_;
+  Vec3 origin_;
+  std::vector<std::unique_ptr<Surface>> kept_;
+  std::unique_ptr<Surface> last_;
+  std::size_t n_kept_ = 0;
+};
+
 }  // namespace
 
 double surface_error(std::span<const Piece> coarse, std::span<const FullTile> full) {
@@ -133,13 +171,14 @@ double surface_error(std::span<const Piece> coarse, std::span<const FullTile> fu
   if (soup.corners.empty()) return infinity;
   const double extent = diagonal(box);
   Uncovered open(soup, origin, distance_from_full(soup, full, origin, extent), share_of_extent * extent);
+  FullSurfaces surfaces(full, origin);
   for (int round = 0; round < most_rounds; ++round) {
     for (const bool first : {true, false})
-      for (const auto& tile : full) {
+      for (std::size_t i = 0; i < full.size(); ++i) {
         check_stop();
-        if (!open.concerns(tile.box, first)) continue;
-        const Soup of_tile(tile.read(), origin);
-        if (!of_tile.corners.empty()) open.ask(tile.box, first, of_tile);
+        if (!open.concerns(full[i].box, first)) continue;
+        const auto& tile = surfaces.read(i);
+        if (tile.triangles.size() > 0) open.ask(full[i].box, first, tile.triangles, tile.nearest);
       }
     if (!open.next_round()) break;
   }

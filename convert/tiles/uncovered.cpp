@@ -91,9 +91,7 @@ bool Uncovered::concerns(const Box& box, bool first) const {
   return std::ranges::any_of(points_, may) || std::ranges::any_of(open_, may);
 }
 
-void Uncovered::ask(const Box& box, bool first, const Soup& tile) {
-  const auto full = tile.triangles();
-  const ClosestPoint nearest(full);
+void Uncovered::ask(const Box& box, bool first, const Triangles& full, const ClosestPoint& nearest) {
   guess_ = ClosestPoint::no_guess;
   for (auto& point : points_)
     if (may_concern(point, box, first)) point.distance = std::min(point.distance, ask(point.at, full, nearest));
@@ -110,7 +108,7 @@ void Uncovered::ask(const Box& box, bool first, const Soup& tile) {
 /// Of a point; 0 when it is too near to matter.
 double Uncovered::ask(const Vec3& p, const Triangles& full, const ClosestPoint& nearest) {
   const double near = promising * known_;
-  if (is_within({p, p, p}, full, near)) return 0;
+  if (guess_ != ClosestPoint::no_guess && squared_distance(p, full[guess_]) <= near * near) return 0;
   const auto found = nearest.nearest(p, {}, guess_, near);
   if (found.triangle != ClosestPoint::no_guess) guess_ = found.triangle;
   return found.distance;

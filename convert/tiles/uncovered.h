@@ -24,7 +24,7 @@ class Uncovered {
   /// than what was found.
   bool concerns(const Box& box, bool first) const;
   /// Asks it. Expected O(n log m) for n triangles of the coarse surface in the box and m of the tile.
-  void ask(const Box& box, bool first, const Soup& tile);
+  void ask(const Box& box, bool first, const Triangles& full, const ClosestPoint& nearest);
   /// Ends a round of two turns over all tiles. False when nothing is left to ask.
   bool next_round();
 

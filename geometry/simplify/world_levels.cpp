@@ -27,7 +27,9 @@ struct WorldLevels::Impl {
   std::size_t left_for_parts(std::size_t count) const;
   double error(const simplify::PlacedSurface& s, std::size_t point) const;
   using UseMesh = std::function<void(std::size_t surface, std::size_t point, Mesh mesh)>;
-  void for_each_changed(std::size_t first_point, std::size_t end_point, const UseMesh& use) const;
+  using SurfaceAtPoint = std::pair<std::size_t, std::size_t>;
+  void make_meshes(std::span<const SurfaceAtPoint> wanted, const UseMesh& use) const;
+  void for_each_changed(const UseMesh& use) const;
 };
 
 /// Triangles of the parts where the world is to have `count`. What stays as it is can be most of them: to make up for
@@ -61,23 +63,27 @@ double WorldLevels::Impl::error(const simplify::PlacedSurface& s, std::size_t po
   return *std::max_element(first, first + s.n_parts) / s.scale;
 }
 
-/// The mesh of each surface at each of these points, where it is another one than at the one before; at the first, than
-/// that of the scene. In order, while the threads make those of some surfaces at a time.
-void WorldLevels::Impl::for_each_changed(std::size_t first_point, std::size_t end_point, const UseMesh& use) const {
+/// In order, while the threads make some at a time.
+void WorldLevels::Impl::make_meshes(std::span<const SurfaceAtPoint> wanted, const UseMesh& use) const {
   constexpr std::size_t at_once = 256;
-  const auto n_surfaces = world.surfaces.size();
-  for (std::size_t first = 0; first < n_surfaces; first += at_once) {
-    std::vector<std::pair<std::size_t, std::size_t>> changed;
-    for (std::size_t i = first; i < std::min(first + at_once, n_surfaces); ++i)
-      for (std::size_t k = first_point; k < end_point; ++k)
-        if (world.is_changed(world.surfaces[i], rungs[k], k > first_point ? &rungs[k - 1] : nullptr))
-          changed.emplace_back(i, k);
-    std::vector<Mesh> meshes(changed.size());
-    parallel_for(changed.size(), [&](std::size_t i) {
-      meshes[i] = world.mesh_at(world.surfaces[changed[i].first], rungs[changed[i].second]);
+  for (std::size_t first = 0; first < wanted.size(); first += at_once) {
+    const auto some = wanted.subspan(first, std::min(at_once, wanted.size() - first));
+    std::vector<Mesh> meshes(some.size());
+    parallel_for(some.size(), [&](std::size_t i) {
+      meshes[i] = world.mesh_at(world.surfaces[some[i].first], rungs[some[i].second]);
     });
-    for (std::size_t i = 0; i < changed.size(); ++i) use(changed[i].first, changed[i].second, std::move(meshes[i]));
+    for (std::size_t i = 0; i < some.size(); ++i) use(some[i].first, some[i].second, std::move(meshes[i]));
   }
+}
+
+/// The mesh of each surface at each point, where it is another one than at the one before; at the first, than that of
+/// the scene.
+void WorldLevels::Impl::for_each_changed(const UseMesh& use) const {
+  std::vector<SurfaceAtPoint> changed;
+  for (std::size_t i = 0; i < world.surfaces.size(); ++i)
+    for (std::size_t k = 0; k < rungs.size(); ++k)
+      if (world.is_changed(world.surfaces[i], rungs[k], k > 0 ? &rungs[k - 1] : nullptr)) changed.emplace_back(i, k);
+  make_meshes(changed, use);
 }
 
 WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
@@ -110,14 +116,34 @@ void WorldLevels::report_missed(Diagnostics& diag) const {
 }
 
 Scene WorldLevels::scene_at(std::size_t i) const {
+  return scene_at(std::vector(impl_->scene.node_count(), static_cast<std::uint32_t>(i)));
+}
+
+Scene WorldLevels::scene_at(std::span<const std::uint32_t> points) const {
   Scene out = impl_->scene;
-  impl_->for_each_changed(i, i + 1, [&](std::size_t n, std::size_t, const Mesh& mesh) {
-    const auto& surface = impl_->world.surfaces[n].surface;
+  const auto& world = impl_->world;
+  std::vector<Impl::SurfaceAtPoint> changed;
+  for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
+    const auto point = points[world.surfaces[i].surface.geometry.value];
+    if (point != as_it_was && world.is_changed(world.surfaces[i], impl_->rungs[point])) changed.emplace_back(i, point);
+  }
+  impl_->make_meshes(changed, [&](std::size_t n, std::size_t, const Mesh& mesh) {
+    const auto& surface = world.surfaces[n].surface;
     if (!mesh.corners.empty())
       store_mesh(out, surface.geometry, mesh);
     else
       for (NodeId shape : surface.shapes) out.unset(shape, nodes::shape::geometry.slot);
   });
+  return out;
+}
+
+std::vector<std::size_t> WorldLevels::faces_at(std::size_t i) const {
+  std::vector<std::size_t> out(impl_->scene.node_count());
+  const auto& world = impl_->world;
+  for (const auto& s : world.surfaces)
+    for (auto part = s.first_part; part < s.first_part + s.n_parts; ++part)
+      if (const auto rung = impl_->rungs[i][part]; rung != simplify::Allocation::gone)
+        out[s.surface.geometry.value] += (*world.allocated[part].rungs)[rung].n_faces;
   return out;
 }
 
@@ -131,7 +157,7 @@ Scene WorldLevels::scene_with_levels() const {
     for (; at_hand < end; levels.clear(), ++at_hand)
       nodes.add(surfaces[at_hand].surface, surfaces[at_hand].mesh, levels, impl_->options.budget);
   };
-  impl_->for_each_changed(0, impl_->rungs.size(), [&](std::size_t n, std::size_t k, Mesh mesh) {
+  impl_->for_each_changed([&](std::size_t n, std::size_t k, Mesh mesh) {
     add_until(n);
     if (!levels.empty() && levels.back().mesh.n_faces() == mesh.n_faces()) return;
     levels.push_back({std::move(mesh), 0, impl_->error(surfaces[n], k)});
@@ -152,7 +178,7 @@ Scene WorldLevels::scene_with_surfaces(std::vector<LeveledSurface>& surfaces) co
     leveled.levels.resize(impl_->rungs.size() + 1, unchanged);
     for (std::size_t k = 0; k < impl_->rungs.size(); ++k) leveled.levels[k + 1].error = impl_->error(s, k);
   }
-  impl_->for_each_changed(0, impl_->rungs.size(), [&](std::size_t n, std::size_t k, const Mesh& mesh) {
+  impl_->for_each_changed([&](std::size_t n, std::size_t k, const Mesh& mesh) {
     auto& leveled = surfaces[first + n];
     NodeId geometry{};
     if (!mesh.corners.empty()) {

@@ -1,6 +1,7 @@
 // A whole scene at falling numbers of triangles that are drawn: one budget for all of its parts.
 #pragma once
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "geometry/simplify/leveled_surface.h"
@@ -37,6 +38,11 @@ class WorldLevels {
   /// Reports not-simplified, with the causes, where what stays as it is keeps a number of triangles from being reached.
   void report_missed(Diagnostics& diag) const;
   Scene scene_at(std::size_t i) const;
+  static constexpr std::uint32_t as_it_was = 0xffffffffu;
+  /// With each surface at a point of its own, by the number of its geometry node, or as it was.
+  Scene scene_at(std::span<const std::uint32_t> points) const;
+  /// Triangles that are left of each surface, once, by the number of its geometry node.
+  std::vector<std::size_t> faces_at(std::size_t i) const;
   /// With LOD nodes that have the points as levels.
   Scene scene_with_levels() const;
   /// The scene, with geometry for each surface at each point that nothing refers to yet: `surfaces` says which. Their

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "convert/tiles.h"
+#include "convert/tiles/coarser.h"
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece_store.h"
 #include "convert/tiles/reading_progress.h"
@@ -28,6 +30,21 @@ Mesh square(double x, double y, double size) {
   m.kind = Mesh::Kind::faces;
   m.positions.edit() = {x, y, 0, x, y, size, x + size, y, size, x + size, y, 0};
   m.corners = {0, 1, 2, 0, 2, 3};
+  return m;
+}
+
+/// A sheet of 2 n * n triangles with waves, from x on.
+Mesh waves(double x, std::uint32_t n) {
+  Mesh m;
+  m.kind = Mesh::Kind::faces;
+  auto& points = m.positions.edit();
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t k = 0; k <= n; ++k) {
+      const double u = double(i) / n, v = double(k) / n;
+      points.insert(points.end(), {x + u, 0.1 * std::sin(7 * u) * std::cos(9 * v), v});
+      if (const auto at = i * (n + 1) + k; i < n && k < n)
+        m.corners.insert(m.corners.end(), {at, at + 1, at + n + 1, at + 1, at + n + 2, at + n + 1});
+    }
   return m;
 }
 
@@ -208,6 +225,30 @@ TEST_CASE("tiles: shards make what one run makes, of tiles that are made of tile
     CHECK(make_tiles({&input, 1}, folder / "shards", options, reader).whole == (shard == 1));
   }
   CHECK(files_of(folder / "once") == files_of(folder / "shards"));
+}
+
+TEST_CASE("tiles: a cell that would draw too much is coarser than others of its level", "[tiles]") {
+  constexpr std::uint32_t n_full = 12, n_few = 3;
+  std::vector<tiles::Piece> pieces;
+  for (std::uint32_t i = 0; i < n_full + n_few; ++i) pieces.push_back(piece(std::to_string(i), waves(2 * i, 10)));
+  const tiles::CoarseLevel levels[] = {{1500, {{0, n_full}, {n_full, n_full + n_few}}}, {300, {{0, n_full + n_few}}}};
+  Diagnostics diag;
+  Statistics stats;
+  const Task ctx{diag, stats};
+  tiles::Looks looks;
+  looks.add(Scene(), {}, ctx, nullptr);
+  const auto coarse = tiles::coarser(pieces, levels, 700, looks, ctx);
+  const auto drawn = [&](std::size_t level, std::uint32_t begin, std::uint32_t end) {
+    std::size_t out = 0;
+    for (const auto& c : coarse[level])
+      if (c.from >= begin && c.from < end) out += c.mesh.n_faces();
+    return out;
+  };
+  CHECK(drawn(0, 0, n_full) <= 700);
+  CHECK(drawn(0, 0, n_full) > 500);
+  CHECK(drawn(0, n_full, n_full + n_few) > 230);  // a fifth of 1500 is theirs
+  CHECK(drawn(1, 0, n_full + n_few) <= 300);
+  CHECK(std::ranges::is_sorted(coarse[0], {}, &tiles::Coarse::from));
 }
 
 TEST_CASE("tiles: an update makes nothing again", "[tiles]") {
