@@ -6,6 +6,7 @@
 #include <functional>
 #include <iterator>
 #include <mutex>
+#include <new>
 #include <set>
 #include <unordered_map>
 
@@ -78,6 +79,7 @@ class Making {
   }
 
   bool read_world(const std::string& path);
+  bool take(const TilesInput& input, SceneCounts& counts, bool& stored);
   bool gather(std::span<const TilesInput> inputs);
   bool make_all();
   void plan();
@@ -104,6 +106,7 @@ class Making {
   bool measure_rest();
   double tolerance_of(const Tile& tile, double extent) const;
   double measured_error(std::uint32_t cell) const;
+  std::vector<std::size_t> shown_parts() const;
   bool publish();
   /// Calls f(i, task) for some of them at a time; false when one has failed.
   bool for_each(std::span<const std::uint32_t> cells, const std::function<bool(std::uint32_t, Task&)>& f);
@@ -134,35 +137,54 @@ bool Making::read_world(const std::string& path) {
   return true;
 }
 
-bool Making::gather(std::span<const TilesInput> inputs) {
+/// The pieces of a file, all of them or none. False when it cannot be read, or does not fit into the memory; `stored`
+/// is false when the disk is full.
+bool Making::take(const TilesInput& input, SceneCounts& counts, bool& stored) {
+  const auto n_before = entries_.size();
+  auto mine = counts;
   std::set<std::string> names;
-  bool stored = true;
-  SceneCounts counts;
+  std::size_t n_triangles = 0;
   const auto put = [&](const Piece& piece) {
     PieceStore::Entry entry{};
     stored = full_->add(piece, entry);
     entries_.push_back(entry);
-    out_.triangles += piece.mesh.is_triangles() ? piece.mesh.n_faces() : 0;
+    n_triangles += piece.mesh.is_triangles() ? piece.mesh.n_faces() : 0;
     names.insert(piece.name);
     return stored;
   };
+  bool read = false, is_too_large = false;
+  try {
+    read = read_world(input.path) && pieces_of(reader_, input.name, options_.triangles, looks_, put, mine);
+  } catch (const std::bad_alloc&) {
+    ctx_.diag.report(Diag::cannot_read, {}, input.path, "it needs more memory than there is");
+    entries_.resize(n_before);
+    is_too_large = true;
+  }
+  if (reader_) reader_.scene() = {};  // levels need the memory
+  if (is_too_large) return false;
+  counts = std::move(mine);
+  out_.triangles += n_triangles;
+  out_.parts += names.size();
+  return read;
+}
+
+bool Making::gather(std::span<const TilesInput> inputs) {
+  bool stored = true;
+  SceneCounts counts;
   ReadingProgress progress(inputs, ctx_.monitor);
   for (const auto& input : inputs) {
     check_stop();
     ++out_.n_files;
-    const bool read = read_world(input.path) && pieces_of(reader_, input.name, options_.triangles, looks_, put, counts);
+    out_.n_failed += !take(input, counts, stored);
     progress.next();
     if (is_full(stored)) return false;
     check_stop();
-    out_.n_failed += !read;
-    out_.parts += names.size();
-    names.clear();
   }
   out_.n_cut = counts.n_cut;
   out_.lost = std::move(counts.lost);
   const auto& folders = looks_.picture_folders();
   pictures_ = std::make_unique<FileResources>(ResourceOptions{.allowed = {folders.begin(), folders.end()}}, nullptr);
-  if (entries_.empty())
+  if (entries_.empty() && out_.n_failed < out_.n_files)
     ctx_.diag.report(Diag::nothing_drawn, {},
                      ctx_.diag.count(Diag::hidden_geometry) > 0
                          ? "what there is, is in Switches that are off; use --show-all"
@@ -462,6 +484,24 @@ double Making::measured_error(std::uint32_t cell) const {
   return std::isfinite(error) ? between_points * error : diagonal(whole);
 }
 
+/// How many names are seen where all tiles of a level are, and full ones that have none there.
+std::vector<std::size_t> Making::shown_parts() const {
+  std::vector<std::size_t> out;
+  for (std::uint32_t depth = 0; depth <= cells_.depth; ++depth) {
+    std::vector<std::uint64_t> names;
+    for (std::uint32_t i = 0; i < made_.size(); ++i) {
+      const Cell& c = cells_.cells[i];
+      if (plan_.is_leaf(i) && c.depth <= depth)
+        for (auto k = c.begin; k < c.end; ++k) names.push_back(entries_[cells_.order[k]].name);
+      else if (!plan_.is_leaf(i) && c.depth == depth)
+        std::ranges::copy(read_names(kept_.pieces_path(made_[i].key)), std::back_inserter(names));
+    }
+    std::ranges::sort(names);
+    out.push_back(static_cast<std::size_t>(std::unique(names.begin(), names.end()) - names.begin()));
+  }
+  return out;
+}
+
 bool Making::publish() {
   finish_tree(cells_, made_);
   if (!link_tiles(cells_, made_, kept_, staging_.path(), ctx_.diag)) return false;
@@ -477,6 +517,7 @@ bool Making::publish() {
     out_.n_over += made.draws > options_.draws || made.bytes > options_.bytes;
   }
   out_.depth = cells_.depth;
+  out_.shown = shown_parts();
   const auto name = tiles_folder(hash);
   auto set = tileset_of(cells_, made_, name);
   set.place = options_.place;
@@ -492,6 +533,13 @@ bool Making::publish() {
 
 }  // namespace
 }  // namespace tiles
+
+std::size_t triangles_within(std::uint64_t memory) {
+  constexpr std::uint64_t program = 150 << 20, of_triangle = 300;
+  const TilesOptions usual;
+  const auto n = memory > program ? (memory - program) / of_triangle : 0;
+  return std::clamp<std::size_t>(n, 3 * usual.triangles, usual.at_once);
+}
 
 TilesMade make_tiles(std::span<const TilesInput> inputs, const std::string& folder, const TilesOptions& options,
                      Document& reader) {

@@ -17,7 +17,7 @@ struct TilesOptions {
   std::size_t draws = 32;           // calls that draw a tile, as far as its looks allow it
   std::uint64_t bytes = 4 << 20;    // of a tile, as far as can be told before it is made
   std::size_t tiles_in_file = 500;  // that tileset.json describes; more are described in files next to the tiles
-  std::size_t at_once = 1'500'000;  // triangles that are simplified together: some 400 MB
+  std::size_t at_once = 1'500'000;  // triangles that are simplified together; decides about bytes (triangles_within)
   SaveOptions save = {.compress = GltfCompression::Method::meshopt};  // how the content is stored
   std::optional<EarthPlace> place = {};                               // none: in coordinates of its own
   /// Which program this is: tiles are taken as they are only from runs of the same one. Empty: from none.
@@ -26,6 +26,10 @@ struct TilesOptions {
   std::uint32_t shard = 0, shards = 1;
   bool update = false;  // what has been made stays for the next run, which then makes again only what has changed
 };
+
+/// What TilesOptions::at_once may be where a run has so many bytes of memory: no more than there are by default, nor
+/// less than three tiles have. It depends on nothing else, so that runs with the same memory make the same tiles.
+std::size_t triangles_within(std::uint64_t memory);
 
 /// One of the files that make the world.
 struct TilesInput {
@@ -49,6 +53,7 @@ struct TilesMade {
   std::size_t depth = 0;                // levels behind the root
   std::size_t n_files = 0, n_failed = 0;
   std::size_t triangles = 0, parts = 0;          // of all files
+  std::vector<std::size_t> shown = {};           // parts, by level: of its tiles and of full tiles above it
   std::size_t n_cut = 0;                         // pieces of surfaces that are too large for a tile
   std::map<std::string, std::size_t> lost = {};  // nodes that tiles have no place for, by type, and ROUTEs
   std::uint64_t bytes = 0;
@@ -68,9 +73,10 @@ struct TilesMade {
 /// Tiles are kept in `folder`/.wrlkit until the set is whole: a run that was killed is gone on with by the next one,
 /// and shards find what the others have made. The last of them to end makes the tiles above, and the set.
 ///
-/// Memory: one file with its scene, then a tile with its children on each thread, and 90 bytes for each part; the rest
-/// lies in a temporary file in `folder`, about as large as the vertices of the world. The same bytes for any number of
-/// threads.
+/// Memory: one file with its scene, then the triangles of TilesOptions::at_once with some 300 bytes each and 40 MB on
+/// each thread, and 100 bytes for each part; the rest lies in a temporary file in `folder`, about as large as the
+/// vertices of the world. A file that does not fit into what may be allocated costs itself, as one that cannot be read.
+/// The same bytes for any number of threads.
 TilesMade make_tiles(std::span<const TilesInput> inputs, const std::string& folder, const TilesOptions& options,
                      Document& reader);
 

@@ -139,6 +139,18 @@ def check_parts(tiles, boxes, names, faults):
             faults.append(f'{t["glb"].name}: names that nothing has: {sorted(unknown)[:3]}')
 
 
+def check_levels(tiles, levels, names, faults):
+    """What is said of each level: the names of its tiles and of full ones above it."""
+    def depth(tile):
+        return len(tile['glb'].stem) - 1
+    for k, level in enumerate(levels):
+        seen = {path for t in tiles.all if depth(t) == k or not t['children'] and depth(t) < k for path in corners_of(t)}
+        if level['parts'] != len(seen):
+            faults.append(f'level {k}: {level["parts"]} parts are said to be shown, there are {len(seen)}')
+    if levels[-1]['parts'] != len(names) or not levels[0]['parts'] < len(names):
+        faults.append(f'parts of the last level and of the root: {[level["parts"] for level in levels]} of {len(names)}')
+
+
 def check_errors(wrlkit, tiles, folder, faults):
     ratios = []
     for t in tiles.all:
@@ -191,9 +203,10 @@ def main():
             made = subprocess.run([args.wrlkit, 'tiles', folder / 'in', '-o', folder / out, '--triangles', str(args.triangles), *flags], capture_output=True, text=True)
             if made.returncode != code:
                 faults.append(f'{out}: exit code {made.returncode}: {made.stderr}')
-        make('out', '--compress', 'none', '--tileset-tiles', '12')
+        make('out', '--compress', 'none', '--tileset-tiles', '12', '--report', folder / 'report.json')
         tiles = Tiles(folder / 'out')
         check_tree(tiles, faults)
+        check_levels(tiles, json.loads((folder / 'report.json').read_text())['tiles']['levels'], names, faults)
         if not len(tiles.all) / 12 <= tiles.n_files <= len(tiles.all) / 4:
             faults.append(f'{tiles.n_files} files describe {len(tiles.all)} tiles, 12 each at most')
         check_parts(tiles, boxes, names, faults)

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
@@ -145,6 +146,7 @@ bool PieceStore::add(const Piece& piece, Entry& entry) {
             .box = box_of_corners(piece.mesh),
             .look = piece.look},
            0,
+           hash_of_name(piece.name),
            hash_of(std::string_view(bytes).substr(0, bytes.size() - sizeof piece.look))};
   {
     const std::scoped_lock lock(state_->mutex);
@@ -161,6 +163,8 @@ Piece PieceStore::read(const Entry& entry) const {
   std::string bytes(entry.bytes, '\0');
   return read_all(state_->fd, bytes, entry.offset) ? unpack(bytes) : Piece{};
 }
+
+std::uint64_t hash_of_name(std::string_view name) { return hash_of(name).low; }
 
 std::optional<std::uint64_t> write_pieces(const std::string& path, std::span<const Piece> pieces) {
   std::string name = path + "-XXXXXX";
@@ -190,6 +194,22 @@ std::vector<Piece> read_pieces(const std::string& path) {
     if (!read_all(fd, bytes, at + head.size())) break;
     out.push_back(unpack(bytes));
     at += head.size() + bytes.size();
+  }
+  if (fd >= 0) close(fd);
+  return out;
+}
+
+std::vector<std::uint64_t> read_names(const std::string& path) {
+  std::vector<std::uint64_t> out;
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  std::string head(2 * sizeof(std::uint32_t), '\0'), name;  // the size of the piece, and that of its name
+  for (std::uint64_t at = 0; fd >= 0 && read_all(fd, head, at);) {
+    Unpacker sizes(head);
+    const auto of_piece = sizes.number<std::uint32_t>();
+    name.resize(std::min(sizes.number<std::uint32_t>(), of_piece));
+    if (!read_all(fd, name, at + head.size())) break;
+    out.push_back(hash_of_name(name));
+    at += sizeof of_piece + of_piece;
   }
   if (fd >= 0) close(fd);
   return out;

@@ -16,10 +16,11 @@ namespace wrlkit::tiles {
 
 class PieceStore {
  public:
-  /// Where a piece is, and what is known of it without reading it. 88 bytes.
+  /// Where a piece is, and what is known of it without reading it. 96 bytes.
   struct Entry : SpaceItem {
     std::uint64_t offset = 0;
-    ContentHash hash = {};  // of all but its look
+    std::uint64_t name = 0;  // hash_of_name
+    ContentHash hash = {};   // of all but its look
   };
 
   /// In a folder that must be there. Nothing, and why, when no file can be made in it.
@@ -42,9 +43,14 @@ class PieceStore {
   std::unique_ptr<State> state_;
 };
 
+/// Tells names from one another.
+std::uint64_t hash_of_name(std::string_view name);
+
 /// Writes pieces into a file of their own, whole or not at all. Its size, or nothing when it cannot be written.
 std::optional<std::uint64_t> write_pieces(const std::string& path, std::span<const Piece> pieces);
 /// What write_pieces has written; fewer when the disk fails.
 std::vector<Piece> read_pieces(const std::string& path);
+/// The hashes of their names alone, without reading their meshes.
+std::vector<std::uint64_t> read_names(const std::string& path);
 
 }  // namespace wrlkit::tiles

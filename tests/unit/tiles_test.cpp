@@ -251,6 +251,14 @@ TEST_CASE("tiles: a cell that would draw too much is coarser than others of its 
   CHECK(std::ranges::is_sorted(coarse[0], {}, &tiles::Coarse::from));
 }
 
+TEST_CASE("tiles: the less memory there is, the less is simplified together", "[tiles]") {
+  constexpr std::uint64_t mega = 1 << 20;
+  const TilesOptions usual;
+  CHECK(triangles_within(4096 * mega) == usual.at_once);
+  CHECK(triangles_within(512 * mega) == (512 - 150) * mega / 300);
+  CHECK(triangles_within(100 * mega) == 3 * usual.triangles);
+}
+
 TEST_CASE("tiles: an update makes nothing again", "[tiles]") {
   const TempFolder folder;
   const auto input = row_of_boxes(folder, 40);

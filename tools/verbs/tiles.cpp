@@ -52,6 +52,7 @@ TilesOptions options_of(const Flags& flags, Shard shard) {
                    .shard = shard.index,
                    .shards = shard.count};
   out.update = flags.update;
+  if (!flags.memory.empty()) out.at_once = triangles_within(size_of(flags.memory));
   out.tiles_in_file = static_cast<std::size_t>(flags.tileset_tiles);
   if (!flags.is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
   if (!flags.is_given("gpu-instancing")) out.save.gpu_instancing = true;
@@ -62,12 +63,14 @@ TilesOptions options_of(const Flags& flags, Shard shard) {
 
 /// All tiles of one distance from the root.
 struct Level {
-  std::size_t n_tiles = 0, triangles = 0, parts = 0, draws = 0;  // draws: of one tile, at most
+  std::size_t n_tiles = 0, triangles = 0, draws = 0;  // draws: of one tile, at most
+  std::size_t parts = 0;                              // that are shown, with the full tiles above
   std::uint64_t bytes = 0;
   double error = 0;
 
   void fields(auto&& f) const {
     f("tiles", n_tiles);
+    f("parts", parts);
     f("triangles", triangles);
     f("draws", draws);
     f("bytes", bytes);
@@ -77,11 +80,11 @@ struct Level {
 
 std::vector<Level> levels_of(const TilesMade& made) {
   std::vector<Level> out(made.depth + 1);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i].parts = made.shown[i];
   for (const auto& tile : made.tiles) {
     auto& level = out[tile.depth];
     ++level.n_tiles;
     level.triangles += tile.triangles;
-    level.parts += tile.parts;
     level.draws = std::max(level.draws, tile.draws);
     level.bytes += tile.bytes;
     level.error = std::max(level.error, tile.error);
@@ -96,12 +99,14 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
   auto out = fmt::format("{} -> {}: {}, {} bytes\n  {}, {}\n", counted(made.n_files, "file"),
                          (std::filesystem::path(folder) / "tileset.json").string(), counted(made.tiles.size(), "tile"),
                          made.bytes, counted(made.triangles, "triangle"), counted(made.parts, "part"));
-  out += fmt::format("{:>7}  {:>6}  {:>11}  {:>13}  {:>11}  {:>11}\n", "level", "tiles", "triangles", "draws, most",
-                     "bytes", "error (m)");
+  out += fmt::format("{:>7}  {:>6}  {:>8}  {:>11}  {:>13}  {:>11}  {:>11}\n", "level", "tiles", "parts", "triangles",
+                     "draws, most", "bytes", "error (m)");
   const auto levels = levels_of(made);
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    out += fmt::format("{:>7}  {:>6}  {:>11}  {:>13}  {:>11}  {:>11.4g}\n", i, levels[i].n_tiles, levels[i].triangles,
-                       levels[i].draws, levels[i].bytes, levels[i].error);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const auto& level = levels[i];
+    out += fmt::format("{:>7}  {:>6}  {:>8}  {:>11}  {:>13}  {:>11}  {:>11.4g}\n", i, level.n_tiles, level.parts,
+                       level.triangles, level.draws, level.bytes, level.error);
+  }
   if (made.n_kept > 0) out += fmt::format("  tiles that were made before: {} of {}\n", made.n_kept, made.tiles.size());
   out += fmt::format("  the root shows {} of {} parts\n", made.tiles[0].parts, made.parts);
   if (made.n_descriptions > 1) out += fmt::format("  files that describe tiles: {}\n", made.n_descriptions);
