@@ -35,7 +35,7 @@ def peers(wrlkit, tmp):
     (tmp / 'plain.toml').write_text('summary = "a plain conversion"\n')
     def ours(*more):
         return lambda listed, out: run([wrlkit, 'corpus', 'run', tmp / 'plain.toml', f'@{listed}', '-o', out, '--base', '/', '--jobs', '2', '-q', *more])
-    found = {'wrlkit': ours(), 'wrlkit --bundle 16': ours('--bundle', '16')}
+    found = {'wrlkit': ours(), 'wrlkit --bundle 1': ours('--bundle', '1')}
     browser = ROOT / 'tests/browser'
     if shutil.which('node') and (browser / 'node_modules/three').exists():
         found['three.js'] = lambda listed, out: run(['node', '--input-type=module', '-e', (ROOT / 'bench/peer_three.mjs').read_text().replace('slice(2)', 'slice(1)'), listed, out], cwd=browser)

@@ -19,7 +19,16 @@
 namespace wrlkit {
 namespace {
 
-std::string_view first_line(std::string_view s) { return s.substr(0, s.find_first_of("\r\n")); }
+std::string_view first_line(std::string_view s) {
+  const auto end = std::ranges::find_if(s, [](char c) { return c == '\r' || c == '\n'; });
+  return s.substr(0, static_cast<std::size_t>(end - s.begin()));
+}
+
+/// As far as it can be one: a .glb has megabytes without a line end.
+std::string_view header_line(std::string_view text) {
+  constexpr std::size_t longest = 65536;
+  return trim(first_line(trim(text).substr(0, longest)));
+}
 
 std::string_view without_bom(std::string_view s) { return s.starts_with("\xef\xbb\xbf") ? s.substr(3) : s; }
 
@@ -77,7 +86,7 @@ bool is_x3d_element(std::string_view name) {
 }
 
 Header read_header(std::string_view text) {
-  auto line = trim(first_line(trim(text)));
+  const auto line = header_line(text);
   if (line.starts_with('#')) {
     if (line.starts_with("#VRML V2.0 utf8")) return {Format::vrml97, true, false};
     if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos)
@@ -123,7 +132,7 @@ std::string describe_bytes(std::string_view text) {
 
 /// Encodings of scenes that are known and not read; empty: it is none of them.
 std::string_view unread_encoding(std::string_view body) {
-  const auto line = first_line(trim(body));
+  const auto line = header_line(body);
   if (line.starts_with("#Inventor") && contains_nocase(line, "binary")) return "Inventor's binary form";
   if (body.starts_with(std::string_view("\xe0\0\0\1", 4)) ||
       (body.starts_with("<?xml") && contains_nocase(line, "encoding='finf'")))
@@ -144,7 +153,7 @@ std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, co
 std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, const std::string& path,
                                   const ReadOptions& options, Diagnostics& diag, const vrml::PartRead& part_read = {}) {
   std::string converted;
-  Span whole{base, 0}, first{base, static_cast<std::uint32_t>(std::min<std::size_t>(first_line(text).size(), 80))};
+  Span whole{base, 0}, first{base, static_cast<std::uint32_t>(first_line(text.substr(0, 80)).size())};
   if (has_utf16_bom(text)) {
     diag.report(Diag::encoding_repaired, whole, "UTF-16");
     converted = utf16_to_utf8(text);

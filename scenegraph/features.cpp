@@ -19,6 +19,10 @@ std::optional<std::uint16_t> metadata_slot(const Scene& scene, NodeId n) {
 std::size_t Features::n_faces() const { return std::accumulate(faces.begin(), faces.end(), std::size_t{0}); }
 
 std::optional<Features> features_of(const Scene& scene, NodeId geometry) {
+  const auto is_set = [&](const Value& v) {
+    return v.type == FieldType::SFNode && !v.is && !scene.is_extra(v) && scene.is(v.node, nodes::MetadataSet);
+  };
+  if (std::ranges::none_of(scene.fields(geometry), is_set)) return std::nullopt;
   const auto slot = metadata_slot(scene, geometry);
   const Value* v = slot ? scene.find(geometry, *slot) : nullptr;
   if (!v || v->is || v->type != FieldType::SFNode || !scene.is(v->node, nodes::MetadataSet) ||

@@ -1,6 +1,7 @@
 #include "scenegraph/verify.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <unordered_map>
@@ -75,13 +76,25 @@ class ValueCheck {
     for (NodeId c : v.node_span()) {
       auto* t = c ? kind_of(c) : nullptr;
       if (t && t->dialects == static_cast<DialectSet>(Dialect::vrml1)) continue;  // it will be another node there
-      if (t && !f.accepts(*t))
+      if (t && !accepts(f, *t))
         diag_.report(Diag::wrong_child, scene_.where(c), t->name, scene_.type(n).name, f.name_in(scene_.dialect()));
     }
   }
 
+  /// What was accepted is remembered: the same few pairs come for all nodes of a plant.
+  bool accepts(const FieldDef& f, const NodeType& t) {
+    const auto known = std::pair(&f, &t);
+    auto& place = accepted_[(reinterpret_cast<std::uintptr_t>(&f) / 16 + reinterpret_cast<std::uintptr_t>(&t) / 16) %
+                            accepted_.size()];
+    if (place == known) return true;
+    if (!f.accepts(t)) return false;
+    place = known;
+    return true;
+  }
+
   const Scene& scene_;
   Diagnostics& diag_;
+  std::array<std::pair<const FieldDef*, const NodeType*>, 61> accepted_{};
 };
 
 /// On all threads, where the scene is large: there is mostly nothing, and what there is must be reported in order.

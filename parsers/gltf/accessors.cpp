@@ -67,7 +67,21 @@ bool is_whole(int type) { return type == unsigned_byte || type == unsigned_short
 
 }  // namespace
 
-double finite_decimal(float f) { return std::isfinite(f) ? decimal(f) : 0; }
+// A number of tenths to millionths that is small enough for a float to tell it from its neighbours is the only one of
+// as many places that reads as that float: if it does, it is the shortest, and neither product nor quotient has an
+// error that counts. Everything else is written and read.
+double finite_decimal(float f) {
+  if (!std::isfinite(f)) return 0;
+  for (const double per_one : {1e6, 1e5, 1e4, 1e3, 1e2, 1e1}) {
+    constexpr double told_apart = (1 << 23) - 1;
+    const double exact = f * per_one;
+    if (std::abs(exact) >= told_apart) continue;
+    const double nearest = static_cast<double>(static_cast<std::int64_t>(exact + std::copysign(0.5, exact))) / per_one;
+    if (static_cast<float>(nearest) == f && nearest != 0) return nearest;
+    break;
+  }
+  return decimal(f);
+}
 
 bool Accessors::fails(std::uint32_t index, std::string_view why) {
   file_.diag().report(Diag::gltf_no_data, file_.where(file_.at(Table::accessors, index)), word(Table::accessors), index,

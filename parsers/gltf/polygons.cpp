@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <optional>
 #include <unordered_map>
 
 #include "base/hashing.h"
@@ -37,6 +38,25 @@ std::vector<std::uint32_t> outline(std::span<const std::uint32_t> t) {
   return loop.size() == open.size() ? loop : std::vector<std::uint32_t>{};
 }
 
+/// The outline of two triangles that have one edge in common, from the first corner of the first on: what most faces
+/// are, so that it is found without sorting.
+std::optional<std::array<std::uint32_t, 4>> quadrilateral(std::span<const std::uint32_t> t) {
+  const auto a = t.first(3), b = t.subspan(3);
+  if (a[0] == a[1] || a[1] == a[2] || a[2] == a[0]) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto other = b[(k + 2) % 3];
+      const bool common = a[i] == b[(k + 1) % 3] && a[(i + 1) % 3] == b[k];
+      if (!common || std::ranges::find(a, other) != a.end()) continue;
+      std::array<std::uint32_t, 4> loop{};
+      std::ranges::copy(a.first(i + 1), loop.begin());
+      loop[i + 1] = other;
+      std::ranges::copy(a.subspan(i + 1), loop.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+      return loop;
+    }
+  return std::nullopt;
+}
+
 struct Hash {
   std::size_t operator()(const std::array<double, 3>& a) const {
     std::uint64_t h = 0;
@@ -53,6 +73,10 @@ Polygons polygons_of(std::span<const std::uint32_t> triangles, std::span<const d
   auto take = [&](std::size_t n) {  // n triangles
     auto t = triangles.subspan(at, 3 * n);
     at += 3 * n;
+    if (const auto four = n == 2 ? quadrilateral(t) : std::nullopt) {
+      out.corners.insert(out.corners.end(), four->begin(), four->end());
+      return out.close();
+    }
     auto loop = n > 1 ? outline(t) : std::vector<std::uint32_t>{};
     if (!loop.empty()) {
       out.corners.insert(out.corners.end(), loop.begin(), loop.end());

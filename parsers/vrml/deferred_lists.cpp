@@ -3,32 +3,12 @@
 #include <algorithm>
 
 #include "parsers/vrml/lexer.h"
-#include "parsers/vrml/number.h"
 #include "parsers/vrml/plain_numbers.h"
 
 namespace wrlkit::vrml {
 namespace {
 
 constexpr std::size_t smallest_batch = 64 * 1024, largest_batch = 2 * 1024 * 1024;
-
-NumberResult read_number(const char*& p, const char* end, double& out) { return read_double(p, end, out); }
-NumberResult read_number(const char*& p, const char* end, std::int32_t& out) { return read_int32(p, end, out); }
-
-/// False when there is anything but numbers and blanks, or a number that has to be repaired.
-template <class T>
-bool read_list(std::string_view text, std::vector<T>& to) {
-  to.clear();
-  const char* p = text.data();
-  const char* const end = p + text.size();
-  for (;;) {
-    p = read_plain_numbers(p, end, to);
-    while (p < end && class_of(*p) == CharClass::blank) ++p;
-    if (p == end) return true;
-    T v;
-    if (read_number(p, end, v) != NumberResult::exact) return false;
-    to.push_back(v);
-  }
-}
 
 /// The pieces of one list, one behind the other.
 template <class T>
@@ -92,7 +72,9 @@ void DeferredLists::read(Batch& batch) {
   std::vector<std::int32_t> integers;
   for (Piece& piece : batch.pieces) {
     if (failed_) return;
-    const bool good = piece.real ? read_list(piece.text, numbers) : read_list(piece.text, integers);
+    const char* const end = piece.text.data() + piece.text.size();
+    const bool good =
+        piece.real ? read_plain_list(piece.text, end, numbers) : read_plain_list(piece.text, end, integers);
     if (!good) return give_up();
     piece.numbers = piece.real ? batch.memory.make(FieldType::MFDouble, 0, numbers)
                                : batch.memory.make(FieldType::MFInt32, 0, integers);

@@ -248,7 +248,7 @@ bool Parser::read_again(const NodePattern& pattern) {
     if (is_for_others(list.text)) continue;
     if (const Value* known = pattern.known(i, list.text))
       values_again_[i] = *known;
-    else if (!plain_list(list.text, list.type, list.slot, values_again_[i]))
+    else if (!plain_list(list.text, lex_.limit(), list.type, list.slot, values_again_[i]))
       return false;
   }
   return true;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "parsers/vrml/lexer.h"
+#include "parsers/vrml/number.h"
 
 namespace wrlkit::vrml {
 namespace {
@@ -83,7 +84,32 @@ const char* read_all(const char* p, const char* end, std::vector<T>& to) {
   return p;
 }
 
+NumberResult read_number(const char*& p, const char* end, double& out) { return read_double(p, end, out); }
+NumberResult read_number(const char*& p, const char* end, std::int32_t& out) { return read_int32(p, end, out); }
+
+template <class T>
+bool read_list(std::string_view list, const char* limit, std::vector<T>& to) {
+  to.clear();
+  const char* p = list.data();
+  const char* const end = p + list.size();
+  for (;;) {
+    p = read_plain_numbers(p, limit, to);
+    while (p < end && is_blank(*p)) ++p;
+    if (p >= end) return p == end;
+    T v;
+    if (read_number(p, end, v) != NumberResult::exact) return false;
+    to.push_back(v);
+  }
+}
+
 }  // namespace
+
+bool read_plain_list(std::string_view list, const char* end, std::vector<double>& to) {
+  return read_list(list, end, to);
+}
+bool read_plain_list(std::string_view list, const char* end, std::vector<std::int32_t>& to) {
+  return read_list(list, end, to);
+}
 
 const char* read_plain_numbers(const char* p, const char* end, std::vector<double>& to) { return read_all(p, end, to); }
 const char* read_plain_numbers(const char* p, const char* end, std::vector<std::int32_t>& to) {

@@ -36,17 +36,13 @@ bool Values::list_value(FieldType type, std::uint16_t slot, std::string_view fie
   return true;
 }
 
-bool Values::plain_list(std::string_view list, FieldType type, std::uint16_t slot, Value& out) {
+bool Values::plain_list(std::string_view list, const char* end, FieldType type, std::uint16_t slot, Value& out) {
   const bool real = info(type).element == Element::number;
   Numbers& numbers = numbers_of(list, real);
   if (take_numbers(numbers, type, slot, out)) return true;
-  numbers_.clear();
-  integers_.clear();
-  const char* p = list.data();
-  p = real ? read_plain_numbers(p, lex_.limit(), numbers_) : read_plain_numbers(p, lex_.limit(), integers_);
-  while (class_of(*p) == CharClass::blank) ++p;  // up to the bracket at the latest
+  if (!(real ? read_plain_list(list, end, numbers_) : read_plain_list(list, end, integers_))) return false;
   const auto count = real ? numbers_.size() : integers_.size();
-  if (p != list.data() + list.size() || count % info(type).arity != 0) return false;
+  if (count % info(type).arity != 0) return false;
   out = value_of_numbers(type, slot);
   numbers = numbers_in(out);
   return true;

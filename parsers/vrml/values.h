@@ -31,8 +31,9 @@ class Values : protected Tokens {
   /// Of what was read, which is as much as the type takes.
   Value value_of_numbers(FieldType, std::uint16_t slot);
 
-  /// The text between the brackets of a list of numbers, if it is written plainly to its end. False: nothing was said.
-  bool plain_list(std::string_view list, FieldType, std::uint16_t slot, Value& out);
+  /// The text of a list of numbers, without brackets, if it is written plainly to its end; of an MF type. Where the
+  /// same text was read before, it has the same array. `end`: as of read_plain_list. False: nothing was said.
+  bool plain_list(std::string_view list, const char* end, FieldType, std::uint16_t slot, Value& out);
 
   std::vector<double> numbers_;
   std::vector<std::int32_t> integers_;

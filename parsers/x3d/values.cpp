@@ -103,6 +103,9 @@ bool AttributeValues::value(FieldType type, std::uint16_t slot, std::string_view
     return read;
   }
   if (type == FieldType::SFBool || type == FieldType::MFBool) return booleans(type, slot, field, attribute, out);
+  const bool of_text = attribute.data() >= text_.data() && attribute.data() < text_.data() + text_.size();
+  const char* const end = text_.data() + text_.size();  // what follows an attribute may be looked at while it is read
+  if (t.multiple && of_text && !entities && plain_list(attribute, end, type, slot, out)) return true;
   return numbers_of(type, slot, field, fallback, attribute, out);
 }
 

@@ -1,5 +1,7 @@
 #include "passes/lower_x3d/appearance.h"
 
+#include <algorithm>
+
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/two_sides.h"
 #include "scenegraph/equal.h"
@@ -40,7 +42,17 @@ NodeId first_of(const Scene& scene, NodeId n, Diagnostics& diag) {
   return n;
 }
 
+bool holds_multiple(const Scene& scene, NodeId n) {
+  const auto is_multiple = [&](NodeId held) {
+    return std::ranges::any_of(multiples, [&](const Multiple& row) { return scene.is(held, row.type); });
+  };
+  return std::ranges::any_of(scene.fields(n), [&](const Value& v) {
+    return v.type == FieldType::SFNode && !v.is && !scene.is_extra(v) && is_multiple(v.node);
+  });
+}
+
 bool first_only(Scene& scene, NodeId n, Diagnostics& diag) {
+  if (!holds_multiple(scene, n)) return false;
   bool changed = false;
   const auto& rows = scene.type(n).fields;
   for (const Value& v : scene.copy_of_fields(n)) {

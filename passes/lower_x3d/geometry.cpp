@@ -302,6 +302,7 @@ bool lower_geometry(Scene& scene, NodeId n) {
     lower_set(scene, n, *row);
     return true;
   }
+  if (!scene.is(n, nodes::X3DGeometryNode)) return false;
   return lower_flat_lines(scene, n) || lower_flat_faces(scene, n) || lower_flat_points(scene, n);
 }
 

@@ -106,6 +106,9 @@ NodeId put_into_switch(Scene& scene, NodeId n) {
 }
 
 bool hide(Scene& scene, NodeId n) {
+  // Nodes without a FALSE, which are nearly all, have none under that name.
+  const auto is_false = [](const Value& v) { return v.type == FieldType::SFBool && !v.is && v.integer == 0; };
+  if (std::ranges::none_of(scene.fields(n), is_false)) return false;
   const auto& t = scene.type(n);
   auto slot = t.find("visible", Dialect::x3d);
   if (!slot || t.fields[*slot].type != FieldType::SFBool) return false;

@@ -57,13 +57,19 @@ class Pruning {
     return std::ranges::find(groups, scene_.type_id(n)) != std::end(groups);
   }
 
+  bool is_list(const Value& v) const { return !scene_.is_extra(v) && !v.is && v.type == FieldType::MFNode; }
+
   void prune_children(NodeId n) {
     const auto& t = scene_.type(n);
     if (t.kind != NodeKind::builtin || scene_.is(n, nodes::Switch) || scene_.is(n, nodes::LOD)) return;
+    const auto has_useless = [&](const Value& v) {
+      return is_list(v) && std::ranges::any_of(v.node_span(), [&](NodeId c) { return useless(c); });
+    };
+    if (std::ranges::none_of(scene_.fields(n), has_useless)) return;
     auto fields = scene_.copy_of_fields(n);
     bool any = false;
     for (auto& v : fields) {
-      if (scene_.is_extra(v) || v.is || v.type != FieldType::MFNode) continue;
+      if (!is_list(v)) continue;
       std::vector<NodeId> left;
       std::ranges::copy_if(v.node_span(), std::back_inserter(left), [&](NodeId c) { return !useless(c); });
       if (left.size() == v.count) continue;

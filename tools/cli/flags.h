@@ -55,7 +55,7 @@ struct Flags {
   std::string format = "glb";  // ending of the outputs
   std::vector<std::string> include, exclude;
   std::string timeout = "10m", shard, base, joblog;
-  int bundle = 1;
+  int bundle = 0;  // 0: as many as are worth it
   bool retry = false;
   std::vector<std::string> outputs;  // report
   std::string compare;               // and of render: a scene

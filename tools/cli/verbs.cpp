@@ -282,7 +282,10 @@ constexpr Verb all_verbs[] = {
        placing(v, f);
      },
      run_view, ".html"},
-    {"corpus-run", "one recipe over many files, each in a process of its own; what was done before is not done again",
+    {"corpus-run",
+     "one recipe over many files, in worker processes: what breaks one file harms no other; what was done before is "
+     "not "
+     "done again",
      "wrlkit corpus run recipes/plant-web.toml plant/ -o web/\n  wrlkit corpus run recipes/archive.toml 'old/**/*.wrl' "
      "@more.txt -o new/ --jobs 8 --memory 32G --timeout 5m\n  wrlkit corpus run recipe.toml plant/ -o web/ --shard 2/8",
      [](CLI::App& v, Flags& f) {
@@ -292,8 +295,8 @@ constexpr Verb all_verbs[] = {
            ->type_name("FILE");
        v.add_option(
             "--bundle", f.bundle,
-            "number of small files that share a worker, one after the other, in a third of the time; 1: each has "
-            "its own")
+            "number of small files that share a worker, one after the other; 16 by default, 1 (each has its own) with "
+            "passes in Python")
            ->check(CLI::Range(1, 1000));
        v.add_flag("--retry", f.retry, "files of which nothing could be made are tried again");
      },

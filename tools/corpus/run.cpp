@@ -128,7 +128,9 @@ class Run {
         cost_ += plan_.jobs[i].cost;
       }
     memory_ = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
-    bundle_size_ = static_cast<std::size_t>(flags.bundle);
+    // What a pass in Python leaves behind in its process is for the next file to find.
+    const int usual = work.flags.python.empty() ? 16 : 1;
+    bundle_size_ = static_cast<std::size_t>(flags.bundle > 0 ? flags.bundle : usual);
     jobs_ = flags.jobs > 0 ? static_cast<std::size_t>(flags.jobs) : std::max(1u, std::thread::hardware_concurrency());
     timeout_ = seconds_of(flags.timeout);
   }
@@ -217,7 +219,9 @@ class Run {
   /// False when there is no room for them now.
   bool start(const std::vector<std::uint32_t>& files, std::uint64_t memory) {
     if (workers_.running() && granted_ + memory > memory_) return false;
-    const bool begun = workers_.start(files.front(), memory, timeout_, [&](const Workers::Tell& tell) {
+    // Whoever shares a worker and takes long is done again alone, with all of its time.
+    const double timeout = files.size() == 1 ? timeout_ : std::min(timeout_, bundle_timeout);
+    const bool begun = workers_.start(files.front(), memory, timeout, [&](const Workers::Tell& tell) {
       for (const auto at : files) tell(to_json(measured(at)) + "\n");
       return done;
     });
@@ -379,7 +383,8 @@ class Run {
   double cost_ = 0, timeout_ = 0;
   std::uint64_t memory_ = 0, granted_ = 0;
   static constexpr int few = 3;
-  static constexpr double small_cost = 0.005;  // a process costs more than a tenth of that
+  static constexpr double bundle_timeout = 30;  // seconds
+  static constexpr double small_cost = 0.005;   // a process costs more than a tenth of that
   int with_codecs_ = 0;
   std::size_t jobs_ = 1, logged_ = 0;
   std::ofstream joblog_;

@@ -59,6 +59,12 @@ constexpr FurtherPicture further[] = {{&MaterialNode::normal_picture, PixelMeani
 
 bool Materials::has_picture(NodeId appearance) {
   if (!scene_.is(appearance, nodes::Appearance)) return false;
+  const auto [i, is_new] = pictured_.try_emplace(appearance.value);
+  if (is_new) i->second = find_picture(appearance);
+  return i->second;
+}
+
+bool Materials::find_picture(NodeId appearance) {
   if (textures_.get(scene_.get(appearance, nodes::appearance::texture)).texture != none) return true;
   const auto m = material_of(scene_, appearance);
   return m &&

@@ -86,6 +86,7 @@ class Materials {
 
  private:
   struct Look;
+  bool find_picture(NodeId appearance);
   MaterialUse make(NodeId appearance, SurfaceKind);
   bool moves(const Look&, std::string_view field) const;
   bool moves(const Look&) const;
@@ -115,6 +116,7 @@ class Materials {
   Extras* extras_;
   GltfOptions::Lightmaps lightmaps_;
   std::unordered_map<std::uint64_t, MaterialUse> uses_;
+  std::unordered_map<std::uint32_t, bool> pictured_;  // of Appearances
   std::unordered_map<std::string, std::uint32_t> by_json_;
   std::vector<std::string> materials_;
   std::vector<Moved> moved_;

@@ -114,7 +114,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
                  std::string(scene_.type(n).name) + " (" + std::to_string(v.n_not_finite) + " numbers)");
   if (v.index.empty()) return g;
   if (!options_.ordered && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size())
-    g.polygons = runs(mesh);
+    g.polygons = add_polygons(runs(mesh));
   g.origin = move_near_origin(mesh, texcoords);
   report_coarse(n, mesh);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
@@ -135,6 +135,13 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   g.repeatable = g.morph == none && g.features == none && diag_.count() == n_said &&
                  (first == none || geometries_[first].repeatable);
   return g;
+}
+
+std::uint32_t Meshes::add_polygons(const std::vector<std::uint32_t>& runs) {
+  if (runs.empty()) return none;
+  const auto [i, is_new] = known_polygons_.try_emplace(runs, static_cast<std::uint32_t>(polygons_.size()));
+  if (is_new) polygons_.push_back(&i->first);
+  return i->second;
 }
 
 void Meshes::split(const Mesh& mesh, bool texcoords, const Vec3& origin) {

@@ -1,6 +1,7 @@
 // Meshes: one for each geometry and material that are used together. The vertex data of a geometry is made when it is
 // first met, and shared by all meshes with it.
 #pragma once
+#include <map>
 #include <string>
 #include <unordered_map>
 
@@ -31,12 +32,11 @@ struct Geometry {
   std::uint32_t textured = none;    // the same geometry, with texture coordinates
   Mode mode = Mode::triangles;
   bool double_sided = false;
-  bool opacity = false;         // its colours have one
-  bool repeatable = false;      // equal ones have the same data: nothing was reported, and it stands still
-  bool made_texcoords = false;  // its texture coordinates were asked for
-  double scale = 0;             // how many times larger it is in the world, at most, where it is shown
-  std::vector<std::uint32_t>
-      polygons;  // pairs: number of triangles of a face, number of such faces; empty: all triangles
+  bool opacity = false;           // its colours have one
+  bool repeatable = false;        // equal ones have the same data: nothing was reported, and it stands still
+  bool made_texcoords = false;    // its texture coordinates were asked for
+  std::uint32_t polygons = none;  // into Meshes::polygons; none: all triangles
+  double scale = 0;               // how many times larger it is in the world, at most, where it is shown
 
   bool empty() const { return positions == none; }
   SurfaceKind surface() const {
@@ -84,6 +84,10 @@ class Meshes {
   const std::vector<Geometry>& geometries() const { return geometries_; }
   const std::vector<MeshRecord>& meshes() const { return meshes_; }
   const std::vector<Vec3>& origins() const { return origins_; }
+  /// Pairs: number of triangles of a face, number of such faces in a row; empty: all are triangles.
+  std::span<const std::uint32_t> polygons(const Geometry& g) const {
+    return g.polygons == none ? std::span<const std::uint32_t>() : *polygons_[g.polygons];
+  }
   /// Rows of the table of parts are in a mesh.
   bool any_features() const { return any_features_; }
   /// How far a mesh goes from its origin.
@@ -96,6 +100,7 @@ class Meshes {
 
  private:
   Geometry make(NodeId, bool texcoords);
+  std::uint32_t add_polygons(const std::vector<std::uint32_t>&);
   /// The data of an equal geometry; empty where there is none.
   Geometry repeated(NodeId, bool texcoords) const;
   const Mesh& mesh_of(NodeId);
@@ -120,6 +125,8 @@ class Meshes {
   std::vector<Geometry> geometries_;
   std::vector<MeshRecord> meshes_;
   std::vector<Vec3> origins_;
+  std::map<std::vector<std::uint32_t>, std::uint32_t> known_polygons_;  // most faces of a plant are cut alike
+  std::vector<const std::vector<std::uint32_t>*> polygons_;
   bool any_features_ = false;
   std::vector<float> feature_of_corner_;  // of the mesh that is being made; empty: it has no parts
   SplitScratch scratch_;

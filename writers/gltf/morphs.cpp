@@ -30,18 +30,21 @@ struct Morphs::Source {
 };
 
 bool Morphs::moves(NodeId n) const {
+  if (motion_.fields().empty()) return false;
   const NodeId coord = node_in(scene_, n, "coord"), normal = node_in(scene_, n, "normal");
   return (scene_.is(coord, nodes::Coordinate) && motion_.moves(coord, nodes::coordinate::point.slot)) ||
          (scene_.is(normal, nodes::Normal) && motion_.moves(normal, nodes::normal::vector.slot));
 }
 
 bool Morphs::makes_normals(NodeId n) const {
+  if (motion_.fields().empty()) return false;
   const NodeId coord = node_in(scene_, n, "coord");
   return scene_.is(n, nodes::IndexedFaceSet) && !node_in(scene_, n, "normal") && scene_.is(coord, nodes::Coordinate) &&
          motion_.moves(coord, nodes::coordinate::point.slot);
 }
 
 std::uint32_t Morphs::add(NodeId n, const Mesh& mesh, const SplitScratch& scratch, const Vertices& vertices) {
+  if (motion_.fields().empty()) return none;
   const NodeId coord = node_in(scene_, n, "coord"), normal = node_in(scene_, n, "normal");
   Source s{n, mesh, scratch, vertices};
   const bool moves = scene_.is(coord, nodes::Coordinate) && motion_.moves(coord, nodes::coordinate::point.slot);

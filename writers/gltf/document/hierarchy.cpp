@@ -136,6 +136,11 @@ void Builder::report_group(NodeId n) {
 
 /// Texture coordinates that a rule makes from where the viewer is.
 void Builder::report_texcoords(NodeId geometry) {
+  const auto is_rule = [&](const Value& v) {
+    return v.type == FieldType::SFNode && !v.is && !m_.scene.is_extra(v) &&
+           m_.scene.is(v.node, nodes::TextureCoordinateGenerator);
+  };
+  if (std::ranges::none_of(m_.scene.fields(geometry), is_rule)) return;
   auto slot = m_.scene.type(geometry).find("texCoord", Dialect::x3d);
   const Value* v = slot ? m_.scene.find(geometry, *slot) : nullptr;
   if (v && !v->is && v->type == FieldType::SFNode && m_.scene.is(v->node, nodes::TextureCoordinateGenerator))

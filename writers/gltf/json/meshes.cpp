@@ -112,7 +112,7 @@ class MeshJson : public JsonPart {
   /// `in_order`: the triangles are in the order of the polygons that they were cut from.
   void mesh_extras(const Geometry& g, bool in_order, const Dequantization* whole) {
     const double step = whole ? whole->step : 1;
-    const auto polygons = in_order ? std::span<const std::uint32_t>(g.polygons) : std::span<const std::uint32_t>();
+    const auto polygons = in_order ? p_.meshes.polygons(g) : std::span<const std::uint32_t>();
     if (is_recognised(p_.scene, g.source))
       p_.extras->form(json_, g.source);
     else if (is_parametric(p_.scene, g.source) || points_move(g.source))
