@@ -50,7 +50,7 @@ struct Document::State {
     for (const auto& buffer : buffers) files->files_read().add(buffer.result.canonical);
     if (!world) return false;
     if (options.show_all) show_all(world->scene);
-    place_world(world->scene, options.unit, options.up);
+    if (!options.gltf_in_metres || world->format != Format::gltf) place_world(world->scene, options.unit, options.up);
     if (options.unpack_pictures && world->format == Format::gltf) unpack_pictures(world->scene, *files);
     files->set_root({std::shared_ptr<const Scene>{}, &world->scene});
     if (options.run_startup) run_startup(world->scene, context);

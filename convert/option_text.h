@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "base/math/digits.h"
+#include "base/text/length_unit.h"
+#include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
 #include "convert/options.h"
 
@@ -25,9 +27,20 @@ inline bool read(const std::string& text, LengthOption& field, const OptionNote&
   return field.read(text) && field.metres > 0;
 }
 inline bool read(const std::string& text, LightmapSize& field, const OptionNote&) { return field.read(text); }
+/// The name of a value as it should have been written: in any case, and units by their other names.
+template <Choice E>
+std::string forgiven(const std::string& text) {
+  const std::string lower = lower_case(text);
+  for (const auto& c : choices<E>) {
+    if (c.name == text || c.name == lower) return std::string(c.name);
+    if constexpr (std::is_same_v<E, Unit>)
+      if (metres_in(text) && metres_in(text) == metres_in(c.name)) return std::string(c.name);
+  }
+  return text;
+}
 template <Choice E>
 bool read(const std::string& text, E& field, const OptionNote&) {
-  return read_choice(text, field);
+  return read_choice(forgiven<E>(text), field);
 }
 template <class T>
 std::string help(const T&, std::string_view text) {
@@ -35,7 +48,8 @@ std::string help(const T&, std::string_view text) {
 }
 template <Choice E>
 std::string help(const E&, std::string_view text) {
-  return choice_help<E>(text);
+  const auto explained = choice_help<E>(text);
+  return explained == text ? explained + ": " + choice_type<E>() : explained;
 }
 inline bool read(const std::string& text, std::vector<std::string>& field, const OptionNote&) {
   field.push_back(text);

@@ -24,16 +24,15 @@ namespace wrlkit {
 /// nothing (links, descriptions); dropped.
 enum class Extras : std::uint8_t { all, facts, none };
 template <>
-inline constexpr auto choices<Extras> = choice_row({{"all", "so that the same VRML can be made again"},
-                                                    {"facts",
-                                                     "what nodes say that draw nothing, links and descriptions"},
+inline constexpr auto choices<Extras> = choice_row({{"all", "enough to write the same VRML again"},
+                                                    {"facts", "links, descriptions and other nodes that draw nothing"},
                                                     {"none"}});
 
 /// What becomes of a Background, which glTF has none of.
 enum class SkyAs : std::uint8_t { none, mesh, picture };
 template <>
 inline constexpr auto choices<SkyAs> = choice_row({{"none", "kept in extras"},
-                                                   {"mesh", "a dome around the world, and a cube of its pictures"},
+                                                   {"mesh", "a dome around the scene, and a cube with its pictures"},
                                                    {"picture", "the same, and an equirectangular NAME.sky.png"}});
 
 /// What fields() may add to the name, the value and the help of an option.
@@ -51,6 +50,7 @@ struct LoadOptions {
   bool project_files = false;
   /// Large files are mapped, not read: less memory, and SIGBUS when another program shortens one meanwhile.
   bool map_files = false;
+  bool gltf_in_metres = false;                             // unit and up are not those of glTF, whose own are given
   bool strict = false;                                     // every warning is an error
   bool show_all = false;                                   // Switches that are off show everything
   bool run_startup = false;                                // Scripts do what they do when a browser loads the world
@@ -59,15 +59,15 @@ struct LoadOptions {
   bool unpack_pictures = false;  // pictures inside a glTF file become files that a writer places next to its own
 
   void placing_fields(auto&& f) {
-    f("unit", unit, "what one unit of the input is");
-    f("up", up, "which axis of the input points up");
-    f("show-all", show_all, "Switches that are off show all their children; see wrlkit passes switch");
-    f("run-startup", run_startup, "run what Scripts do when the world is loaded; see wrlkit passes startup");
+    f("unit", unit, "unit of length of the input");
+    f("up", up, "axis of the input that points up");
+    f("show-all", show_all, "show all children of Switches that are off; see wrlkit passes switch");
+    f("run-startup", run_startup, "run what Scripts do when a browser loads the scene; see wrlkit passes startup");
   }
   void fields(auto&& f) {
     placing_fields(f);
-    f("allow-path", allow_paths, "files below this folder may be read, too (Inline, textures)");
-    f("strict", strict, "every repair is an error");
+    f("allow-path", allow_paths, "allow files below this folder to be read (Inlines, textures)");
+    f("strict", strict, "treat every repair as an error");
   }
 };
 
@@ -104,50 +104,54 @@ struct SaveOptions {
   void light_fields(auto&& f) {
     f("lightmap-as", lightmap_as, "baked light in glTF");
     f("animation-pointer", animation_pointer,
-      "glTF: animate colours, transparency, light and fieldOfView by KHR_animation_pointer, which few viewers know");
-    f("sky", sky, "the Background in glTF");
-    f("hidden", hidden, "what Switches do not show, in glTF");
-    f("behaviour", behaviour, "what ROUTEs do, in glTF");
+      "glTF: animate colours, transparency, lights and fieldOfView with KHR_animation_pointer, which few viewers "
+      "support");
+    f("sky", sky, "Background in glTF");
+    f("hidden", hidden, "children that a Switch hides, in glTF");
+    f("behaviour", behaviour, "ROUTEs in glTF");
   }
   void baked_fields(auto&& f) {
     f("lightmap-size", lightmap_size,
-      "most bytes of all pictures with baked light, 300k, or their texels, 512x512: details go that are seen least",
+      "maximum size of all pictures with baked light, in bytes (300k) or texels (512x512); the least visible details "
+      "go first",
       OptionNote{.type = LightmapSize::type});
   }
   void size_fields(auto&& f) {
     f("compress", compress, "vertices in glTF");
     f("tolerance", tolerance,
-      "no vertex moves further when it is quantised: 1mm, 0.1in; a number is in metres; default 1mm, or less in a "
-      "small world",
+      "maximum distance by which quantization moves a vertex: 1mm, 0.1in; plain numbers are metres; default: 1mm, or "
+      "less in a small scene",
       OptionNote{.type = "LENGTH"});
-    f("position-bits", position_bits, "instead of that, bits of the extent of each mesh", OptionNote{between(1, 16)});
-    f("normal-bits", normal_bits, "of each component", OptionNote{between(2, 8)});
-    f("texcoord-bits", texcoord_bits, "of a picture's width and height; of a lightmap's two more",
+    f("position-bits", position_bits, "bits per coordinate, over the extent of each mesh; instead of --tolerance",
       OptionNote{between(1, 16)});
-    f("draco-level", draco_level, "0: fast, 10: small", OptionNote{between(0, 10)});
-    f("extras", extras, "what VRML says and glTF cannot, kept in extras");
+    f("normal-bits", normal_bits, "bits per component of a normal", OptionNote{between(2, 8)});
+    f("texcoord-bits", texcoord_bits, "bits per texture coordinate; two more for lightmaps",
+      OptionNote{between(1, 16)});
+    f("draco-level", draco_level, "effort of Draco, from 0 (fast) to 10 (small)", OptionNote{between(0, 10)});
+    f("extras", extras, "what glTF cannot express, in extras");
     f("texture-format", texture_format, "pictures in glTF");
-    f("texture-quality", texture_quality, "of JPEG and WebP", OptionNote{between(1, 100)});
-    f("texture-size", texture_size, "most pixels along the longer side of pictures in glTF; 0: as they are",
+    f("texture-quality", texture_quality, "quality of JPEG and WebP pictures", OptionNote{between(1, 100)});
+    f("texture-size", texture_size, "maximum length of the longer side of pictures in glTF, in pixels; 0: unlimited",
       OptionNote{between(0, static_cast<double>(max_image_side)), "PIXELS"});
     f("gpu-instancing", gpu_instancing,
-      "glTF: four or more parts of one parent that only place one mesh as a table of places, one draw call "
-      "(EXT_mesh_gpu_instancing; not every viewer knows it)");
+      "glTF: write four or more nodes of one parent that only place the same mesh as a table of places, drawn in one "
+      "call (EXT_mesh_gpu_instancing; not every viewer supports it)");
     f("names", names, "names of parts in glTF");
-    f("color-bits", color_bits, "of each component, in linear light", OptionNote{between(1, 16)});
+    f("color-bits", color_bits, "bits per component of a colour, in linear light", OptionNote{between(1, 16)});
   }
   void file_fields(auto&& f) {
     f("link", link,
-      "the output refers to files outside its folder where they are; without it they are copied into a folder next to "
-      "it, out/room_files for out/room.wrl");
+      "refer to files outside the output's folder where they are, instead of copying them into a folder next to it "
+      "(out/room_files for out/room.wrl)");
     f("embed", embed,
-      "pictures of VRML and X3D, and in extras of glTF, stand in the output itself, as data urls; what Inlines hold, "
-      "too");
+      "store pictures of VRML and X3D, and of extras in glTF, in the output itself, as data URLs; also the contents of "
+      "Inlines");
   }
   void text_fields(auto&& f) {
-    f("gzip", gzip, "compress VRML output");
-    f("dump", dump, "VRML output with wrlkit's own fields, which no browser knows: the scene as passes leave it");
-    f("precision", precision, "significant digits of VRML output; 0: all that are needed", OptionNote{between(0, 17)});
+    f("gzip", gzip, "compress VRML and X3D output with gzip");
+    f("dump", dump, "write wrlkit's own fields to VRML, too, which no browser knows: the scene as passes leave it");
+    f("precision", precision, "significant digits of numbers in VRML and X3D; 0: as many as needed",
+      OptionNote{between(0, 17)});
   }
   void fields(auto&& f) {
     light_fields(f);

@@ -19,7 +19,16 @@ OutputUrls::OutputUrls(const Writing& w, bool textures) : writing_(w), textures_
 std::optional<std::string> OutputUrls::operator()(std::string_view url, Span where, UrlUse use) {
   if (writing_.options.embed && is_picture(use) && (textures_ || use != UrlUse::texture))
     if (auto data = data_of(url, where)) return data;
-  return copies_ ? copies_->url(url, where, use) : std::nullopt;
+  auto copy = copies_ ? copies_->url(url, where, use) : std::nullopt;
+  if (writing_.options.embed && copy) report_not_embedded(*copy, where, use);
+  return copy;
+}
+
+void OutputUrls::report_not_embedded(const std::string& copy, Span where, UrlUse use) {
+  const auto file = copy.substr(0, copy.find('#'));
+  if (!not_embedded_.insert(file).second) return;
+  writing_.context.diag.report(Diag::not_embedded, where, file,
+                               use == UrlUse::world ? "; use -p inline,expand-protos to include it" : "");
 }
 
 std::optional<std::string> OutputUrls::data_of(std::string_view url, Span where) {

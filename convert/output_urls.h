@@ -1,6 +1,7 @@
 // What urls are written as in one output: those of copies of the files that they lead to, or the data themselves.
 #pragma once
 #include <optional>
+#include <set>
 #include <string>
 
 #include "convert/writing.h"
@@ -24,10 +25,12 @@ class OutputUrls {
 
  private:
   std::optional<std::string> data_of(std::string_view url, Span where);
+  void report_not_embedded(const std::string& copy, Span where, UrlUse use);
 
   const Writing& writing_;
   bool textures_;
   std::optional<CopiedFiles> copies_;
+  std::set<std::string> not_embedded_;  // of those that have been reported
 };
 
 }  // namespace wrlkit

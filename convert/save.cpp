@@ -1,5 +1,6 @@
 #include "convert/save.h"
 
+#include "convert/missing_files.h"
 #include "convert/writing.h"
 
 namespace wrlkit {
@@ -22,9 +23,10 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
   } else {
     if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
     if (!sink && to.path != "-" && !options.dump && ctx.resources)
-      report_missing_files(scene, *ctx.resources, ctx.diag);
+      report_missing_parts(scene, *ctx.resources, ctx.diag);
     if (hooks.last) hooks.last(scene);
   }
+  if (!sink && to.path != "-" && !options.dump && ctx.resources) report_missing_media(scene, *ctx.resources, ctx.diag);
   return to.format->write({scene, meshes, ctx, options, to, sink, saved, makers});
 }
 

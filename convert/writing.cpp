@@ -22,8 +22,6 @@ namespace {
 using TextWriter = void (*)(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
 
 /// A file of this computer, from anywhere.
-bool is_local(std::string_view url) { return url_kind(url) == UrlKind::file; }
-
 /// What readers of VRML take for VRML.
 bool has_vrml_name(std::string_view url) {
   const auto name = url.substr(0, url.find('#'));
@@ -104,17 +102,6 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
 }
 
 }  // namespace
-
-void report_missing_files(const Scene& scene, Resources& resources, Diagnostics& diag) {
-  for_each_url_list(scene, UrlFields(scene), [&](Span where, std::span<const std::string_view> urls, UrlUse use) {
-    const bool is_part = use == UrlUse::texture || use == UrlUse::picture || use == UrlUse::world;
-    if (!is_part || !std::ranges::all_of(urls, is_local)) return;
-    const bool found = std::ranges::any_of(urls, [&](std::string_view url) {
-      return resources.target(url, where, *scene.sources).kind != UrlTarget::Kind::nothing;
-    });
-    if (!found) resources.bytes(urls, where, diag);  // reports it
-  });
-}
 
 bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
 bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }

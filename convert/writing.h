@@ -22,7 +22,4 @@ bool write_gltf_file(const Writing&);
 bool write_vrml_file(const Writing&);
 bool write_x3d_file(const Writing&);
 
-/// Reports pictures and Inlines that a text will refer to and that are not there, as they are where glTF is written.
-void report_missing_files(const Scene&, Resources&, Diagnostics&);
-
 }  // namespace wrlkit

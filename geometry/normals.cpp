@@ -21,9 +21,9 @@ using FaceNormal = NormalsScratch::FaceNormal;
 
 using std::numbers::pi;
 
-constexpr std::uint32_t none = 0xffffffffu;
+constexpr std::uint32_t no_edge = 0xffffffffu;
 constexpr int compared_mates = 8;       // of one edge; what keeps an edge of very many faces linear
-constexpr double flat = 1e-12;          // height by length of a face that counts as without area
+constexpr double flat_face = 1e-12;     // height by length of a face that counts as without area
 constexpr float cancelled = 1e-30f;     // square of a sum that counts as zero
 constexpr std::size_t n_recent = 4096;  // normals that are looked through for an equal one; a power of two
 
@@ -153,7 +153,7 @@ FaceNormal Normals::face_normal(std::uint32_t begin, std::uint32_t end) const {
     a = b;
   }
   double square = dot(area, area);
-  if (!(square > flat * flat * size * size)) return {0, 0, 0, 0};  // what is not finite has no area either
+  if (!(square > flat_face * flat_face * size * size)) return {0, 0, 0, 0};  // what is not finite has no area either
   double scale = (mesh_.ccw ? 1 : -1) / std::sqrt(square);
   return {static_cast<float>(area[0] * scale) + 0.f, static_cast<float>(area[1] * scale) + 0.f,
           static_cast<float>(area[2] * scale) + 0.f, 1};  // + 0: no negative zeros
@@ -179,7 +179,7 @@ void Normals::number_positions() {
 
 void Normals::chain_edges() {
   std::uint32_t* first = room(scratch_.first_edge, n_ids_);
-  std::fill_n(first, n_ids_, none);
+  std::fill_n(first, n_ids_, no_edge);
   edges_ = room(scratch_.edges, n_corners_);
   if (begin_) face_of_ = room(scratch_.face_of, n_corners_);
   for (std::uint32_t f = 0; f < n_faces_; ++f) {
@@ -196,12 +196,12 @@ void Normals::chain_edges() {
 void Normals::find_mates() {
   const std::uint32_t* first = scratch_.first_edge.data();
   NormalsScratch::Seen* seen = room(scratch_.seen, n_ids_);
-  std::fill_n(seen, n_ids_, NormalsScratch::Seen{none, none});
+  std::fill_n(seen, n_ids_, NormalsScratch::Seen{no_edge, no_edge});
   for (std::uint32_t p = 0; p < n_ids_; ++p) {
-    for (std::uint32_t e = first[p]; e != none;) {
+    for (std::uint32_t e = first[p]; e != no_edge;) {
       NormalsScratch::Seen& s = seen[edges_[e].other];
       std::uint32_t next = edges_[e].link;
-      edges_[e].link = s.from == p ? s.edge : none;
+      edges_[e].link = s.from == p ? s.edge : no_edge;
       s = {p, e};
       e = next;
     }
@@ -213,7 +213,7 @@ void Normals::fill_gaps() {
   auto has = [](const FaceNormal& n) { return n.x != 0 || n.y != 0 || n.z != 0; };
   auto give = [](FaceNormal& to, const FaceNormal& from) { to = {from.x, from.y, from.z, 0}; };
   for (std::uint32_t c = 0; c < n_corners_; ++c) {
-    if (edges_[c].link == none) continue;
+    if (edges_[c].link == no_edge) continue;
     FaceNormal &a = normal_[face_of(c)], &b = normal_[face_of(edges_[c].link)];
     if (has(a) != has(b)) has(a) ? give(b, a) : give(a, b);
   }
@@ -247,13 +247,13 @@ void Normals::unite_corners(double crease_angle) {
   n_groups_ = static_cast<std::uint32_t>(n_corners_);
   for (std::uint32_t f = 0; f < n_faces_; ++f)
     for (std::uint32_t c = begin(f), last = end(f); c < last; ++c)
-      if (edges_[c].link != none) unite_across(c, c + 1 == last ? begin(f) : c + 1, f, chord);
+      if (edges_[c].link != no_edge) unite_across(c, c + 1 == last ? begin(f) : c + 1, f, chord);
 }
 
 void Normals::unite_across(std::uint32_t corner, std::uint32_t next, std::uint32_t face, float chord) {
   const FaceNormal& n = normal_[face];
   std::uint32_t mate = edges_[corner].link;
-  for (int k = 0; k < compared_mates && mate != none; ++k, mate = edges_[mate].link) {
+  for (int k = 0; k < compared_mates && mate != no_edge; ++k, mate = edges_[mate].link) {
     std::uint32_t other = face_of(mate);
     const FaceNormal& m = normal_[other];
     float x = n.x - m.x, y = n.y - m.y, z = n.z - m.z;

@@ -32,6 +32,15 @@ void LightMeter::add(const LightMeter& other) {
   for (std::size_t i = 0; i < counts_.size(); ++i) counts_[i] += other.counts_[i];
 }
 
+double LightMeter::share_above(double luminance) const {
+  std::uint64_t all = 0, above = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    all += counts_[i];
+    if (middle(i) > luminance) above += counts_[i];
+  }
+  return all > 0 ? static_cast<double>(above) / static_cast<double>(all) : 0;
+}
+
 double LightMeter::factor(double target) const {
   constexpr double faint = 1e-3, most = 1e6, burnt = 4;
   double n = 0, sum = 0;

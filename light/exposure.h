@@ -30,6 +30,8 @@ class LightMeter {
   /// times as bright as white, where a little of the world is lit and the rest is not. 1 when there are no others.
   /// Between 1e-6 and 1e6, of three digits, so that what is printed is what was taken.
   double factor(double target) const;
+  /// The share of places that are brighter; 0 when there are none.
+  double share_above(double luminance) const;
 
  private:
   static constexpr int steps = 64, n_doublings = 64;  // of a doubling; from 2^-32 on

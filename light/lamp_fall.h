@@ -10,6 +10,6 @@ enum class LampFall : std::uint8_t { as_written, inverse_square };
 template <>
 inline constexpr auto choices<LampFall> = choice_row(
     {{"as-written", "by attenuation and radius"},
-     {"inverse-square", "by the square of the distance, as strong as written at the distance that they light"}});
+     {"inverse-square", "by the square of the distance; as bright as written at the distance of what they light"}});
 
 }  // namespace wrlkit

@@ -35,17 +35,20 @@ std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
   return out;
 }
 
+NearestName nearest_type(std::string_view name) {
+  NearestName nearest(name);
+  for (const auto& type : builtin_nodes()) nearest.consider(type.name);
+  return nearest;
+}
+
 /// Raises when neither the node table nor the world has a type of that name.
 void check_type(const Scene& scene, const std::string& name) {
-  NearestName nearest(name);
-  bool found = name.empty();
-  const auto consider = [&](const NodeType& type) {
-    nearest.consider(type.name);
-    found |= type.is_named(name);
-  };
-  for (const auto& type : builtin_nodes()) consider(type);
-  for (const auto& type : scene.own_types()) consider(type);
-  if (!found) throw py::value_error("there is no node type '" + name + "'" + nearest.question());
+  const auto is_it = [&](const NodeType& type) { return type.is_named(name); };
+  if (name.empty() || std::ranges::any_of(builtin_nodes(), is_it) || std::ranges::any_of(scene.own_types(), is_it))
+    return;
+  NearestName nearest = nearest_type(name);
+  for (const auto& type : scene.own_types()) nearest.consider(type.name);
+  throw py::value_error("there is no node type '" + name + "'" + nearest.question());
 }
 
 std::vector<PyNode> nodes_of(const std::shared_ptr<PyWorld>& world, const std::string& type) {
@@ -82,7 +85,7 @@ std::vector<std::string> fields_of(const PyNode& n) {
 PyNode add_node(const std::shared_ptr<PyWorld>& w, const std::string& type, const py::kwargs& fields) {
   auto id = find_builtin(type, Dialect::vrml97);
   if (!id) id = find_builtin(type, Dialect::x3d);
-  if (!id) throw py::value_error("there is no node type '" + type + "'");
+  if (!id) throw py::value_error("there is no node type '" + type + "'" + nearest_type(type).question());
   PyNode node{w, w->scene().add(id)};
   for (const auto& [name, value] : fields)
     set_field(node, name.cast<std::string>(), py::reinterpret_borrow<py::object>(value));
@@ -229,6 +232,7 @@ void define_world(WorldClass& type) {
 
 PYBIND11_MODULE(_wrlkit, m) {
   using namespace wrlkit::python;
+  m.attr("__version__") = WRLKIT_VERSION;
   m.doc() = "Worlds of VRML, X3D and glTF; see wrlkit.load.";
   define_error(m);
   // Classes first, so that the signatures of all functions name them.

@@ -1,8 +1,10 @@
 // Fields of nodes as Python values, and back, with the types of the node table.
 #include <algorithm>
+#include <cmath>
 
 #include "base/text/nearest_name.h"
 #include "python/world.h"
+#include "scenegraph/verify.h"
 
 namespace wrlkit::python {
 namespace {
@@ -43,6 +45,21 @@ NodeId node_of(const PyNode& holder, const py::handle& value) {
   return node.id;
 }
 
+/// Whether an array holds tuples of so many numbers: one after the other, or each in a row of its own.
+bool fits(const py::array& array, std::size_t arity) {
+  const auto last = array.ndim() > 0 ? static_cast<std::size_t>(array.shape(array.ndim() - 1)) : 1;
+  return array.ndim() < 2 ? static_cast<std::size_t>(array.size()) % arity == 0 : last == arity;
+}
+
+/// What a file would be warned of is an error of the program that sets it.
+void require_valid(const PyNode& node, const FieldDef& field, const Value& value) {
+  if (!std::ranges::all_of(value.number_span(), [](double v) { return std::isfinite(v); }))
+    throw py::value_error(std::string(node.type().name) + "." + std::string(field.name) + ": not a finite number");
+  Diagnostics faults;
+  check_value(node.scene(), node.id, value, faults);
+  if (!faults.messages().empty()) throw py::value_error(faults.messages()[0].text());
+}
+
 Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value) {
   const auto& t = info(field.type);
   Scene& scene = node.scene();
@@ -55,7 +72,7 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
       case Element::number: {
         if (t.arity == 1 && !t.multiple) return scene.make(field.type, slot, value.cast<double>());
         const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
-        if (!array || array.size() % t.arity != 0 || (!t.multiple && array.size() != t.arity)) throw wrong();
+        if (!array || !fits(array, t.arity) || (!t.multiple && array.size() != t.arity)) throw wrong();
         return scene.make(field.type, slot,
                           std::span<const double>(array.data(), static_cast<std::size_t>(array.size())));
       }
@@ -105,7 +122,10 @@ py::object get_field(const PyNode& node, const std::string& name) {
 
 void set_field(const PyNode& node, const std::string& name, const py::object& value) {
   const auto slot = slot_of(node, name);
-  node.scene().set(node.id, from_python(node, node.type().fields[slot], slot, value));
+  const auto& field = node.type().fields[slot];
+  const Value made = from_python(node, field, slot, value);
+  require_valid(node, field, made);
+  node.scene().set(node.id, made);
 }
 
 }  // namespace wrlkit::python

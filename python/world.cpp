@@ -8,6 +8,7 @@
 #include "convert/load.h"
 #include "convert/option_text.h"
 #include "convert/profiles.h"
+#include "scenegraph/verify.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/session.h"
 #include "tools/verbs/info.h"
@@ -171,6 +172,8 @@ void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
   check_output(path);
   ConvertOptions options;
   set_options(options, given);
+  Diagnostics faults(diag().shared_sources());
+  if (!verify(scene(), Level::authored, faults)) fail(path + ": the scene is not valid", views(faults));
   Saved saved;
   {
     py::gil_scoped_release others;

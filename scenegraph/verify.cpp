@@ -22,17 +22,18 @@ class ValueCheck {
   ValueCheck(const Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
 
   void node(NodeId n) {
-    const auto& t = scene_.type(n);
-    for (auto& v : scene_.fields(n)) {
-      if (scene_.is_extra(v) || v.is) continue;
-      const auto& f = t.fields[v.slot];
-      if (f.range.bounded()) range(n, f, v);
-      if (f.kinds.empty()) continue;
-      if (info(f.type).element == Element::text)
-        words(n, f, v);
-      else
-        children(n, f, v);
-    }
+    for (auto& v : scene_.fields(n)) value(n, v);
+  }
+
+  void value(NodeId n, const Value& v) {
+    if (scene_.is_extra(v) || v.is) return;
+    const auto& f = scene_.type(n).fields[v.slot];
+    if (f.range.bounded()) range(n, f, v);
+    if (f.kinds.empty()) return;
+    if (info(f.type).element == Element::text)
+      words(n, f, v);
+    else
+      children(n, f, v);
   }
 
  private:
@@ -237,6 +238,10 @@ class Invariants {
 };
 
 }  // namespace
+
+void check_value(const Scene& scene, NodeId n, const Value& value, Diagnostics& diag) {
+  ValueCheck(scene, diag).value(n, value);
+}
 
 void check_values(const Scene& scene, Diagnostics& diag) {
   const auto all = all_nodes(scene);

@@ -13,6 +13,8 @@ enum class Level : std::uint8_t { authored, expanded, mesh };
 /// What `check` reports in addition to the parser: values out of range, unknown keywords, nodes in places that cannot
 /// hold them, wrong ROUTE types. Warnings only: such files are read all the same. O(scene).
 void check_values(const Scene&, Diagnostics&);
+/// The same of one value that a node has, or is to have.
+void check_value(const Scene&, NodeId, const Value&, Diagnostics&);
 
 /// Invariants of a level; each breach is an error `verify`. True when there was none. O(n log n) in the fields.
 ///

@@ -1,7 +1,6 @@
 #include "base/text/nearest_name.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "base/text/letter_case.h"
@@ -9,23 +8,31 @@
 namespace wrlkit {
 
 std::size_t letters_apart(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  const auto same = [&](std::size_t i, std::size_t j) { return to_lower(a[i]) == to_lower(b[j]); };
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 1; j <= b.size(); ++j)
-      diagonal = std::exchange(
-          row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (to_lower(a[i - 1]) != to_lower(b[j - 1]))}));
+    before.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + !same(i - 1, j - 1)});
+      if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1)) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
   }
   return row.back();
 }
 
+// A third of the letters may be wrong, three at most: 'exit' is not 'cat'.
+NearestName::NearestName(std::string_view name)
+    : name_(name), least_(std::clamp<std::size_t>(name.size() / 3, 1, 3) + 1) {}
+
 void NearestName::consider(std::string_view candidate) {
-  // A name of which every letter would have to change is not meant.
-  if (auto d = letters_apart(name_, candidate); d < least_ && d < std::max(name_.size(), candidate.size())) {
-    least_ = d;
-    best_ = candidate;
-  }
+  const bool begins = name_.size() >= 3 && lower_case(candidate).starts_with(lower_case(name_));
+  const auto d = begins ? std::size_t{1} : letters_apart(name_, candidate);
+  if (d >= least_ || d >= std::max(name_.size(), candidate.size())) return;
+  least_ = d;
+  best_ = candidate;
 }
 
 std::string NearestName::question() const {

@@ -5,13 +5,14 @@
 
 namespace wrlkit {
 
-/// Letters of `a` that must be changed, put in or left out to get `b`; upper and lower case are the same. O(|a| |b|).
+/// Letters of `a` that must be changed, put in, left out or swapped with the next one to get `b` (optimal string
+/// alignment distance); upper and lower case are the same. O(|a| |b|).
 std::size_t letters_apart(std::string_view a, std::string_view b);
 
 /// Looks for the name that is nearest to one: `consider` each, then `best`.
 class NearestName {
  public:
-  explicit NearestName(std::string_view name) : name_(name) {}
+  explicit NearestName(std::string_view name);
   void consider(std::string_view candidate);
   /// Empty when none is near enough to be meant.
   std::string_view best() const { return best_; }
@@ -19,9 +20,8 @@ class NearestName {
   std::string question() const;
 
  private:
-  static constexpr std::size_t near = 3;
   std::string_view name_, best_;
-  std::size_t least_ = near + 1;
+  std::size_t least_;  // letters apart, of the best so far
 };
 
 }  // namespace wrlkit

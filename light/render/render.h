@@ -60,11 +60,11 @@ template <>
 inline constexpr auto choices<RenderOptions::Mode> =
     choice_row({{"preview", "as in a browser"},
                 {"wireframe"},
-                {"lightmap", "the light of lightmaps alone"},
-                {"checker", "their texels as a checker"},
-                {"density", "their texels a metre"},
-                {"albedo", "without light"},
-                {"path", "with shadows and reflected light, as noisy as --samples are few"}});
+                {"lightmap", "only the light of lightmaps"},
+                {"checker", "texels of lightmaps as a checkerboard"},
+                {"density", "texels of lightmaps per metre"},
+                {"albedo", "colours without light"},
+                {"path", "path tracing, with shadows and reflected light; noise falls with --samples"}});
 
 /// Draws the scene. `resources` gives the pictures of textures; without it, or where one cannot be read, the material
 /// shows. The picture is RGB and always there: an empty scene gives its background.

@@ -5,28 +5,10 @@
 
 #include "base/image/srgb.h"
 #include "scenegraph/gltf_extensions.h"
+#include "scenegraph/legal_name.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
-
-/// ISO/IEC 14772-1, A.3: characters of a name; the first is not a digit or sign either.
-bool in_name(unsigned char c) {
-  return c > ' ' && c != 0x7f && std::string_view("\"#',.[\\]{}").find(static_cast<char>(c)) == std::string_view::npos;
-}
-
-bool is_keyword(std::string_view s) {
-  constexpr std::string_view words[] = {"DEF", "EXTERNPROTO", "FALSE", "IS",      "NULL",     "PROTO",        "ROUTE",
-                                        "TO",  "TRUE",        "USE",   "eventIn", "eventOut", "exposedField", "field"};
-  return std::ranges::find(words, s) != std::end(words);
-}
-
-std::string legal_name(std::string_view s) {
-  std::string out(s);
-  for (char& c : out)
-    if (!in_name(static_cast<unsigned char>(c))) c = '_';
-  if (!out.empty() && ((out[0] >= '0' && out[0] <= '9') || out[0] == '+' || out[0] == '-')) out.insert(0, "_");
-  return is_keyword(out) ? out + "_" : out;
-}
 
 /// JSON without the blanks between its tokens.
 std::string compact(std::string_view s) {
@@ -43,8 +25,6 @@ std::string compact(std::string_view s) {
 }
 
 }  // namespace
-
-bool is_legal_name(std::string_view s) { return !s.empty() && legal_name(s) == s; }
 
 void Lost::add(std::string_view what, Span where) {
   if (names_.empty()) first_ = where;

@@ -45,9 +45,6 @@ struct Context {
   void set_name(NodeId, Json name) const;
 };
 
-/// ISO/IEC 14772-1, A.3.
-bool is_legal_name(std::string_view);
-
 /// An element's vrml97 extras: no Json when there are none.
 inline Json vrml97(Json element) { return element["extras"]["vrml97"]; }
 

@@ -8,6 +8,7 @@
 #include "scenegraph/access_word.h"
 #include "scenegraph/browser_nodes.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 

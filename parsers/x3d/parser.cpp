@@ -8,6 +8,7 @@
 #include "parsers/x3d/grammar.h"
 #include "parsers/x3d/page.h"
 #include "scenegraph/container_field.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::x3d {
@@ -273,12 +274,8 @@ const XmlNode* Parser::find_element(const XmlNode& n, std::string_view name) {
 
 std::string_view Parser::name_of(std::string_view attribute) {
   const auto name = plain(attribute);
-  auto breaks = [](char c) {
-    return static_cast<unsigned char>(c) <= ' ' || std::string_view("\"#,[]{}").find(c) != std::string_view::npos;
-  };
-  if (std::ranges::none_of(name, breaks)) return name;
-  std::string legal(name);
-  std::ranges::replace_if(legal, breaks, '_');
+  if (is_one_word(name)) return name;
+  const auto legal = as_one_word(name);
   diag_.report(Diag::x3d_repaired, span_of(attribute), "name '" + std::string(name) + "' is read as '" + legal + "'");
   return scene_.keep(legal);
 }

@@ -20,6 +20,7 @@
 #include "passes/lightmap/borders.h"
 #include "passes/lightmap/connected.h"
 #include "passes/lightmap/whole_pages.h"
+#include "scenegraph/dangling_links.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -476,7 +477,13 @@ std::string why_missing(CombinedFormat format) {
 
 Outcome combine_lightmap(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx) {
   if (!ctx.resources || !has_lightmaps(scene)) return Outcome::unchanged;
-  return Combining(scene, options, ctx).run();
+  drop_dangling_links(scene);
+  const auto outcome = Combining(scene, options, ctx).run();
+  // What animated a Material that is part of the picture now.
+  for (const Route& r : drop_dangling_links(scene).routes)
+    ctx.diag.report(Diag::animation_baked, scene.where(r.to), scene.type(r.to).name,
+                    r.event_in.starts_with("set_") ? r.event_in.substr(4) : r.event_in);
+  return outcome;
 }
 
 }  // namespace wrlkit

@@ -19,14 +19,14 @@ enum class CombineTarget : std::uint8_t { texture, automatic, vertex, lightmap }
 template <>
 inline constexpr auto choices<CombineTarget> =
     choice_row({{"texture", "VRML's one texture"},
-                {"auto", "colours at the corners where they show as much for less, else the texture"},
-                {"vertex", "colours at the corners of all that is opaque and has no picture"},
-                {"lightmap", "all stays as it is, and the lightmap shows the combined colours"}});
+                {"auto", "colours at the corners where they are as good for fewer bytes, otherwise the texture"},
+                {"vertex", "colours at the corners of all opaque Shapes without a picture"},
+                {"lightmap", "the lightmap shows the combined colours; all else stays"}});
 
 enum class CombinedFormat : std::uint8_t { as_light, png, jpg, webp };
 template <>
 inline constexpr auto choices<CombinedFormat> =
-    choice_row({{"auto", "as those of the light, with JPEG only where there is no alpha"}, {"png"}, {"jpg"}, {"webp"}});
+    choice_row({{"auto", "that of the lightmaps, but JPEG only without alpha"}, {"png"}, {"jpg"}, {"webp"}});
 
 /// Why this build cannot write it; empty when it can.
 std::string why_missing(CombinedFormat);
@@ -84,19 +84,20 @@ A scene without lightmaps is left alone, in O(nodes); so is any without resource
   CombinedFormat format = CombinedFormat::as_light;
 
   void fields(auto&& f) {
-    f("scale", scale, "texels for each texel of the light, along each side; auto: as many as the textures have");
-    f("max-size", max_size, "pixels along each side of a picture; a larger page of light keeps its size",
+    f("scale", scale, "texels per texel of the lightmap, along each side; auto: as many as the textures have");
+    f("max-size", max_size, "maximum width and height of a picture; a larger lightmap keeps its size",
       between(1, 32768));
     f("tolerance", tolerance,
-      "by which a chart may differ when it has fewer texels, in 255ths: root mean square, and a quarter of what 99 % "
-      "keep below",
+      "error allowed when a chart gets fewer texels, in 255ths: root mean square; the 99th percentile may be four "
+      "times as large",
       between(0, 255));
-    f("budget", budget, "most bytes of all pictures together; 0: any.");
+    f("budget", budget, "maximum size of all pictures together; 0: unlimited");
     f("texels", texels,
-      "most texels of all pictures together; 0: without a budget 4,194,304 or those of the light, whichever are more",
+      "maximum number of texels of all pictures together; 0: without a budget, 4,194,304 or as many as the lightmaps "
+      "have, if that is more",
       at_least(0));
-    f("into", into, "where the combined picture goes");
-    f("format", format, "of the pictures");
+    f("into", into, "where the combined colours go");
+    f("format", format, "format of the pictures");
   }
 };
 

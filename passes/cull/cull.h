@@ -36,12 +36,12 @@ gets all. The same result for any number of threads.)";
       {"cull.hidden", "Shapes that were never seen"},
       {"cull.caps", "ends of pipes, elbows and flanges that stood against another"},
       {"cull.triangles", "triangles of all"},
-      {"cull.draws-before", "Shapes as they are shown before the pass"},
-      {"cull.draws-after", "Shapes as they are shown behind it"},
-      {"cull.nodes-before", "nodes of the world before the pass"},
-      {"cull.nodes-after", "nodes of the world behind it"},
-      {"cull.meshes-before", "geometry nodes that are drawn before the pass"},
-      {"cull.meshes-after", "geometry nodes that are drawn behind it"},
+      {"cull.draws-before", "Shapes drawn before the pass"},
+      {"cull.draws-after", "Shapes drawn after the pass"},
+      {"cull.nodes-before", "nodes before the pass"},
+      {"cull.nodes-after", "nodes after the pass"},
+      {"cull.meshes-before", "geometry nodes drawn before the pass"},
+      {"cull.meshes-after", "geometry nodes drawn after the pass"},
   };
 
   LengthOption smaller;
@@ -52,13 +52,13 @@ gets all. The same result for any number of threads.)";
   WrittenFile list{.endings = WrittenFile::table};
 
   void fields(auto&& f) {
-    f("smaller", smaller, "parts of a smaller extent than this go, in metres of the world, or with a unit: 20mm");
-    f("hidden", hidden, "parts go that are seen neither from outside nor from a Viewpoint");
-    f("walkways", walkways, "hidden: nor from where a visitor could stand, on whatever faces up and has room above it");
-    f("rays", rays, "hidden: how many rays of a part have to end at others before it counts as hidden", at_least(1));
-    f("seed", seed, "hidden: of the random numbers");
+    f("smaller", smaller, "remove parts smaller than this: 20mm; plain numbers are metres");
+    f("hidden", hidden, "remove parts that are visible neither from outside nor from a Viewpoint");
+    f("walkways", walkways, "hidden: nor from any place where a visitor can stand");
+    f("rays", rays, "hidden: rays per part; all must be blocked", at_least(1));
+    f("seed", seed, "hidden: seed of the random numbers");
     faces.fineness_fields(f);
-    f("list", list, "file for the names of what is left out, one a line");
+    f("list", list, "file for the names of removed parts, one per line");
   }
 };
 

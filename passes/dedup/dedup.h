@@ -32,18 +32,19 @@ Nothing is seen of it. Linear in nodes and values.)";
       {"dedup.geometries", "how many geometry nodes fewer there are"},
       {"dedup.arrays", "how many Coordinates, Normals and the like fewer there are"},
       {"dedup.others", "how many other nodes fewer there are"},
-      {"dedup.draws-before", "Shapes as they are shown before the pass"},
-      {"dedup.draws-after", "Shapes as they are shown behind it"},
-      {"dedup.nodes-before", "nodes of the world before the pass"},
-      {"dedup.nodes-after", "nodes of the world behind it"},
-      {"dedup.meshes-before", "geometry nodes that are drawn before the pass"},
-      {"dedup.meshes-after", "geometry nodes that are drawn behind it"},
+      {"dedup.draws-before", "Shapes drawn before the pass"},
+      {"dedup.draws-after", "Shapes drawn after the pass"},
+      {"dedup.nodes-before", "nodes before the pass"},
+      {"dedup.nodes-after", "nodes after the pass"},
+      {"dedup.meshes-before", "geometry nodes drawn before the pass"},
+      {"dedup.meshes-after", "geometry nodes drawn after the pass"},
   };
 
   bool named = false;
 
   void fields(auto&& f) {
-    f("named", named, "also what has different DEF names, if no ROUTE or Script uses them; all but the first are lost");
+    f("named", named,
+      "also share nodes with different DEF names, if no ROUTE or Script uses them; only the first name is kept");
   }
 };
 

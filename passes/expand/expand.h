@@ -20,9 +20,9 @@ for all turns together. Cost: that of both passes, for each level.)";
   int limit = 500'000;
   bool keep_declarations = false;
   void fields(auto&& f) {
-    f("depth", depth, "how deep Inlines may be nested", at_least(0));
-    f("limit", limit, "how many nodes and ROUTEs may be copied for Inlines, and for instances", at_least(0));
-    f("keep-declarations", keep_declarations, "keep the declarations although nothing uses them any more");
+    f("depth", depth, "maximum nesting of Inlines", at_least(0));
+    f("limit", limit, "maximum number of nodes and ROUTEs copied for Inlines, and for instances", at_least(0));
+    f("keep-declarations", keep_declarations, "keep prototype declarations that are no longer used");
   }
 };
 Outcome expand(Scene&, const ExpandOptions&, PassContext&);

@@ -26,9 +26,10 @@ empty Groups.)";
   int limit = 500'000;
   bool keep_declarations = false;
   void fields(auto&& f) {
-    f("limit", limit, "how many nodes and ROUTEs the instances may become, beyond sixteen for each node of the world",
+    f("limit", limit,
+      "maximum number of nodes and ROUTEs of all instances, in addition to sixteen for each node of the scene",
       at_least(0));
-    f("keep-declarations", keep_declarations, "keep the declarations although nothing uses them any more");
+    f("keep-declarations", keep_declarations, "keep prototype declarations that are no longer used");
   }
 };
 /// How many nodes and ROUTEs instances may become, over several runs.

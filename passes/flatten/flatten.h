@@ -25,12 +25,12 @@ Files become larger by it: run it on request only. Linear in what is drawn, whic
   static constexpr StatisticInfo statistics[] = {
       {"flatten.transforms", "Transforms that became Groups"},
       {"flatten.shapes", "Shapes that were moved"},
-      {"flatten.draws-before", "Shapes as they are shown before the pass"},
-      {"flatten.draws-after", "Shapes as they are shown behind it"},
-      {"flatten.nodes-before", "nodes of the world before the pass"},
-      {"flatten.nodes-after", "nodes of the world behind it"},
-      {"flatten.meshes-before", "geometry nodes that are drawn before the pass"},
-      {"flatten.meshes-after", "geometry nodes that are drawn behind it"},
+      {"flatten.draws-before", "Shapes drawn before the pass"},
+      {"flatten.draws-after", "Shapes drawn after the pass"},
+      {"flatten.nodes-before", "nodes before the pass"},
+      {"flatten.nodes-after", "nodes after the pass"},
+      {"flatten.meshes-before", "geometry nodes drawn before the pass"},
+      {"flatten.meshes-after", "geometry nodes drawn after the pass"},
   };
 
   Tessellation faces{.triangles = false, .texcoords = true};

@@ -23,8 +23,9 @@ copies, which are limited; beyond the limit they are shared.)";
   int depth = 16;
   int limit = 500'000;
   void fields(auto&& f) {
-    f("depth", depth, "how deep Inlines may be nested", at_least(0));
-    f("limit", limit, "how many nodes and ROUTEs may be copied for files that are inlined several times", at_least(0));
+    f("depth", depth, "maximum nesting of Inlines", at_least(0));
+    f("limit", limit, "maximum number of nodes and ROUTEs copied for files that are inlined several times",
+      at_least(0));
   }
 };
 /// What several runs over one scene share: the limits hold for all of them.

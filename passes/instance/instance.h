@@ -12,7 +12,7 @@ namespace wrlkit {
 
 template <>
 inline constexpr auto choices<instancing::Scaling> =
-    choice_row({{"none"}, {"uniform", "by one factor"}, {"axis", "by a factor along each of three axes"}});
+    choice_row({{"none"}, {"uniform", "by one factor"}, {"axis", "by a factor for each of three axes"}});
 
 struct InstanceOptions {
   static constexpr std::string_view doc = R"(
@@ -49,12 +49,12 @@ corners, n log n where copies differ in their order.)";
       {"instance.groups", "geometries that are shared now"},
       {"instance.copies", "geometries that are no more"},
       {"instance.forms", "of those, forms"},
-      {"instance.draws-before", "Shapes as they are shown before the pass"},
-      {"instance.draws-after", "Shapes as they are shown behind it"},
-      {"instance.nodes-before", "nodes of the world before the pass"},
-      {"instance.nodes-after", "nodes of the world behind it"},
-      {"instance.meshes-before", "geometry nodes that are drawn before the pass"},
-      {"instance.meshes-after", "geometry nodes that are drawn behind it"},
+      {"instance.draws-before", "Shapes drawn before the pass"},
+      {"instance.draws-after", "Shapes drawn after the pass"},
+      {"instance.nodes-before", "nodes before the pass"},
+      {"instance.nodes-after", "nodes after the pass"},
+      {"instance.meshes-before", "geometry nodes drawn before the pass"},
+      {"instance.meshes-after", "geometry nodes drawn after the pass"},
   };
 
   double tolerance = 0.0002;
@@ -64,16 +64,16 @@ corners, n log n where copies differ in their order.)";
   int form_places = 0;
 
   void fields(auto&& f) {
-    f("tolerance", tolerance, "how far a point may be from where it was, in metres of the world", at_least(0));
-    f("scaling", scaling, "how a copy may be scaled");
-    f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not have");
-    f("named", named, "also where a Coordinate or the like has a DEF name, which is lost");
-    f("forms", forms, "also Box, Cylinder and what recognise makes: forms that only a scale tells apart become one");
+    f("tolerance", tolerance, "maximum distance of a point from where it was, in metres", at_least(0));
+    f("scaling", scaling, "scaling of copies");
+    f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not allow");
+    f("named", named, "also geometry whose Coordinate or the like has a DEF name, which is lost");
+    f("forms", forms, "also Box, Cylinder and the forms of recognise: forms that differ only in scale become one");
     f("form-places", form_places,
-      "forms that stand in more places keep geometry of their own size: where each place is a node, its scale takes "
-      "more; 0: any number",
+      "forms in more places than this keep geometry of their own size, which takes less than a scale at each place; "
+      "0: unlimited",
       at_least(0));
-    f("min-saving", min_saving, "bytes that a group of equal parts has to save to be shared, as glTF counts them");
+    f("min-saving", min_saving, "bytes of glTF that a group of equal parts must save to be shared");
   }
 };
 

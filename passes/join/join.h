@@ -36,18 +36,18 @@ holds any more. Faces that share a Coordinate are neighbours when they are joine
 Linear in nodes and in the indices of what is joined.)";
   static constexpr StatisticInfo statistics[] = {
       {"join.shapes", "how many Shapes fewer there are"},
-      {"join.draws-before", "Shapes as they are shown before the pass"},
-      {"join.draws-after", "Shapes as they are shown behind it"},
-      {"join.nodes-before", "nodes of the world before the pass"},
-      {"join.nodes-after", "nodes of the world behind it"},
-      {"join.meshes-before", "geometry nodes that are drawn before the pass"},
-      {"join.meshes-after", "geometry nodes that are drawn behind it"},
+      {"join.draws-before", "Shapes drawn before the pass"},
+      {"join.draws-after", "Shapes drawn after the pass"},
+      {"join.nodes-before", "nodes before the pass"},
+      {"join.nodes-after", "nodes after the pass"},
+      {"join.meshes-before", "geometry nodes drawn before the pass"},
+      {"join.meshes-after", "geometry nodes drawn after the pass"},
   };
 
   bool named = false;
 
   void fields(auto&& f) {
-    f("named", named, "also what has a DEF name, if no ROUTE or Script uses it; the name is lost");
+    f("named", named, "also join Shapes with a DEF name, if no ROUTE or Script uses it; the name is lost");
   }
 };
 

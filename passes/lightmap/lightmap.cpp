@@ -178,9 +178,13 @@ class ViewExposure {
   explicit ViewExposure(const Exposure& wanted) : wanted_(wanted), factor_(wanted.factor) {}
 
   double of(const std::vector<BakedPage>& pages, PassContext& ctx) {
-    if (!std::exchange(wanted_.automatic, false)) return factor_;
+    if (std::exchange(is_known_, true)) return factor_;
     light::LightMeter meter;
     for (const BakedPage& p : pages) meter.add(p.meter);
+    if (!wanted_.automatic) {
+      report_clipped(meter, ctx);
+      return factor_;
+    }
     factor_ = meter.factor(light_of_middle_grey);
     const std::string said = Exposure{.factor = factor_}.print();
     ctx.diag.report(Diag::light_exposure, {}, said, said);
@@ -193,9 +197,17 @@ class ViewExposure {
 
  private:
   static constexpr double light_of_middle_grey = 0.36;  // on what reflects a half of it
+  static constexpr double light_of_white = 1.25;        // on what reflects four fifths of it
+  static constexpr double much = 1.0 / 3;               // of the texels
+
+  void report_clipped(const light::LightMeter& meter, PassContext& ctx) const {
+    const double share = meter.share_above(light_of_white / factor_);
+    if (share > much) ctx.diag.report(Diag::light_clipped, {}, std::lround(100 * share));
+  }
 
   Exposure wanted_;
   double factor_;
+  bool is_known_ = false;
 };
 
 using Clock = std::chrono::steady_clock;

@@ -131,35 +131,34 @@ threads.)";
   int seed = 1;
 
   void fields(auto&& f) {
-    f("quality", quality, "how many rays, and how many texels unless a density is given");
-    f("error", error, "relative standard error that is wanted of what is shown, such as 0.01; 0: as the quality has it",
-      between(0, 1));
-    f("rays", rays, "of a point, with error at most; 0: as the quality has it", between(0, 2048));
-    f("budget", budget, "time that the bake may take: pages and rays are chosen for it; 0: as the quality has it");
+    f("quality", quality, "number of rays and, without density, of texels");
+    f("error", error, "relative standard error to reach, such as 0.01; 0: set by quality", between(0, 1));
+    f("rays", rays, "rays per point; with error, the maximum; 0: set by quality", between(0, 2048));
+    f("budget", budget,
+      "time that the bake may take: 60s, 10m; sets the size of pages and the number of rays; 0: set by quality");
     f("density", density, "texels per metre; 0: as many as fit on one page", at_least(0));
-    f("densities", densities, "by name, times the density of the rest");
-    f("max-size", max_size,
-      "texels along each side of a page; 0: 512, 1024 or 4096 by the quality, 4096 when a density is given",
+    f("densities", densities, "factors on the density, by name");
+    f("max-size", max_size, "texels along each side of a page; 0: 512, 1024 or 4096 by quality, 4096 with density",
       between(0, 32768));
     f("mips", mips,
-      "versions of a page, each half of the one before, that keep its charts apart; 0: up to 4, as many as cost no "
-      "more "
-      "than a tenth of the texels a metre",
+      "number of mip levels in which charts do not mix; 0: up to 4, as many as cost at most a tenth of the texels per "
+      "metre",
       between(0, 6));
-    f("sky", sky, "what shines from beyond the world: its Background, nothing, or one radiance");
-    f("emission", emission, "factor for the light that emissiveColor gives off", at_least(0));
-    f("lamps", lamps, "how the light of PointLights and SpotLights falls with distance");
-    f("exposure", exposure, "factor on what is kept of the light; auto: found from it, and reported");
-    f("unlit", unlit, "Shapes without a Material in a world with lamps: light them, or keep them at full brightness");
-    f("directional", directional, "keep from where the light comes, too");
-    f("exr", exr, "write the light as OpenEXR, too");
-    f("denoise", denoise, "take the noise out");
-    f("format", format, "of the pictures");
+    f("sky", sky, "light from the sky: that of the Background, none, or a radiance such as 0.5:0.5:1");
+    f("emission", emission, "factor for the light of emissiveColor", at_least(0));
+    f("lamps", lamps, "how the light of PointLights and SpotLights decreases with distance");
+    f("exposure", exposure, "factor for the light; auto: found from the light, and reported");
+    f("unlit", unlit,
+      "Shapes without a Material, in a scene with lights: bake light onto them, or keep them at full brightness");
+    f("directional", directional, "also keep the direction of the light");
+    f("exr", exr, "also write the light as OpenEXR");
+    f("denoise", denoise, "remove noise");
+    f("format", format, "format of the pictures");
     f("checkpoint", checkpoint,
-      "file in which finished work is kept, so that the same call goes on after an interruption");
-    f("seed", seed, "of the random numbers");
-    f("patches", patches, "patch file (wrlkit illuminate) to take the light from, instead of computing it");
-    f("smooth", smooth, "colours of patches go over into one another");
+      "file that keeps finished work; the same command continues from it after an interruption");
+    f("seed", seed, "seed of the random numbers");
+    f("patches", patches, "take the light from this patch file (wrlkit illuminate) instead of computing it");
+    f("smooth", smooth, "interpolate the colours of patches");
     faces.fineness_fields(f);
   }
 };

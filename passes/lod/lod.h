@@ -14,10 +14,10 @@ namespace wrlkit {
 
 enum class LodScope : std::uint8_t { part, group, world };
 template <>
-inline constexpr auto choices<LodScope> =
-    choice_row({{"part", "each Shape"},
-                {"group", "the innermost groups that hold several Shapes, and other Shapes by themselves"},
-                {"world", "a tree of cells that all together are the world"}});
+inline constexpr auto choices<LodScope> = choice_row({{"part", "each Shape"},
+                                                      {"group",
+                                                       "the innermost groups of several Shapes, and each other Shape"},
+                                                      {"world", "a tree of cells over the whole scene"}});
 
 /// Numbers with colons between them: 0.5:0.25:0.1.
 struct NumberList {
@@ -104,21 +104,19 @@ geometries; the same result for any number of threads.)";
   Tessellation faces{.texcoords = true};
 
   void fields(auto&& f) {
-    f("scope", scope, "what a LOD is made for");
+    f("scope", scope, "what gets a LOD");
     f("ratios", ratios,
-      "triangles of each further level, as shares of the first; with other scopes than part, of all that the world "
-      "draws");
-    f("cell-triangles", cell_triangles, "with scope=world: of a cell that is not cut", at_least(1));
-    f("errors", errors, "instead of ratios: how far each further level may be from the first, in metres of the world");
+      "triangles of each further level, as shares of the first; with scope=group and world, of all triangles drawn");
+    f("cell-triangles", cell_triangles, "with scope=world: maximum number of triangles of a cell", at_least(1));
+    f("errors", errors, "instead of ratios: maximum distance of each further level from the first, in metres");
     f("criterion", criterion, CriterionName::help());
-    f("pixels", pixels, "error of a level on the screen, in pixels, from which on it may be shown", at_least(0));
-    f("screen-height", screen_height, "pixels", at_least(1));
-    f("field-of-view", field_of_view, "of the screen's height, in radians", between(0.001, 3.141));
-    f("vanish", vanish, "pixels below which a part may be left out altogether, by an empty last level; 0: never",
-      at_least(0));
-    f("min-saving", min_saving, "share of the triangles of the level before that a level has to save to be written",
-      between(0, 1));
-    f("min-faces", min_faces, "triangles below which a Shape is left as it is", at_least(0));
+    f("pixels", pixels, "error on the screen, in pixels, at which a level is shown", at_least(0));
+    f("screen-height", screen_height, "height of the screen, in pixels", at_least(1));
+    f("field-of-view", field_of_view, "vertical field of view, in radians", between(0.001, 3.141));
+    f("vanish", vanish,
+      "size on the screen, in pixels, below which a part is not drawn, by an empty last level; 0: never", at_least(0));
+    f("min-saving", min_saving, "share of the triangles of the previous level that a level must save", between(0, 1));
+    f("min-faces", min_faces, "Shapes with fewer triangles stay unchanged", at_least(0));
     faces.fineness_fields(f);
   }
 };

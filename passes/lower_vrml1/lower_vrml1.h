@@ -36,7 +36,8 @@ what it draws; nodes that are used in ever other states are limited like the cop
 
   int limit = 500'000;
   void fields(auto&& f) {
-    f("limit", limit, "how many nodes may be visited again because the state is another one", at_least(0));
+    f("limit", limit, "maximum number of nodes that are visited again because the traversal state differs",
+      at_least(0));
   }
 };
 Outcome lower_vrml1(Scene&, const LowerVrml1Options&, PassContext&);

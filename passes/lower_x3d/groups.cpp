@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "passes/lower_x3d/geometry.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -40,18 +41,6 @@ constexpr GroupRow groups[] = {
     {nodes::CollidableShape, nodes::Transform, nodes::collidable_shape::shape.slot},
     {nodes::CollidableOffset, nodes::Transform, nodes::collidable_offset::collidable.slot},
 };
-
-/// A name that VRML can have, of one that a CAD program gave.
-std::string legal_name(std::string_view s) {
-  std::string out;
-  for (char c : s) {
-    const bool bad =
-        static_cast<unsigned char>(c) <= ' ' || std::string_view("\"'#,.[\\]{}").find(c) != std::string_view::npos;
-    out += bad ? '_' : c;
-  }
-  if (!out.empty() && ((out[0] >= '0' && out[0] <= '9') || out[0] == '+' || out[0] == '-')) out.insert(0, 1, '_');
-  return out;
-}
 
 void take_name(Scene& scene, NodeId n) {
   auto slot = scene.type(n).find("name", Dialect::x3d);

@@ -44,12 +44,12 @@ lower-x3d{vrml97=true} behind combine-lightmap does the rest.)";
   bool defer_colors = false;
   double tolerance = 0;
   void fields(auto&& f) {
-    f("materials", materials, "also the materials and the OrthoViewpoint, which glTF can say");
-    f("vrml97", vrml97, "everything that VRML97 cannot say");
+    f("materials", materials, "also convert materials and OrthoViewpoint, which glTF can express");
+    f("vrml97", vrml97, "convert everything that VRML97 cannot express");
     f("defer-colors", defer_colors,
-      "with vrml97: only geometry and groups; the rest is left to a second lower-x3d behind the light");
+      "with vrml97: only geometry and groups; leave the rest to a second lower-x3d after the light");
     f("tolerance", tolerance,
-      "largest distance of triangles and lines from NURBS, in metres; 0: a thousandth of their size", at_least(0));
+      "maximum distance of triangles and lines from NURBS, in metres; 0: a thousandth of their size", at_least(0));
   }
 };
 Outcome lower_x3d(Scene&, const LowerX3dOptions&, PassContext&);

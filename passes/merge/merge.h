@@ -53,12 +53,12 @@ in what is merged, which is there once for each place.)";
   static constexpr StatisticInfo statistics[] = {
       {"merge.parts", "parts that keep a name"},
       {"merge.shapes", "Shapes that were made"},
-      {"merge.draws-before", "Shapes as they are shown before the pass"},
-      {"merge.draws-after", "Shapes as they are shown behind it"},
-      {"merge.nodes-before", "nodes of the world before the pass"},
-      {"merge.nodes-after", "nodes of the world behind it"},
-      {"merge.meshes-before", "geometry nodes that are drawn before the pass"},
-      {"merge.meshes-after", "geometry nodes that are drawn behind it"},
+      {"merge.draws-before", "Shapes drawn before the pass"},
+      {"merge.draws-after", "Shapes drawn after the pass"},
+      {"merge.nodes-before", "nodes before the pass"},
+      {"merge.nodes-after", "nodes after the pass"},
+      {"merge.meshes-before", "geometry nodes drawn before the pass"},
+      {"merge.meshes-after", "geometry nodes drawn after the pass"},
   };
 
   int max_draws = 500;
@@ -67,14 +67,12 @@ in what is merged, which is there once for each place.)";
   WrittenFile csv{.endings = WrittenFile::table};
 
   void fields(auto&& f) {
-    f("max-draws", max_draws,
-      "Shapes that are left to be drawn, at most, if there are not more appearances and places of their own",
+    f("max-draws", max_draws, "maximum number of draw calls, if there are not more appearances and scopes",
       at_least(1));
     f("instanced", instanced,
-      "Shapes that show one geometry often enough stay, because a table of places draws them as one (--names table, "
-      "--gpu-instancing)");
+      "keep Shapes that share geometry often enough for a table of places (--names table, --gpu-instancing)");
     f("parts", parts,
-      "instead: Shapes of one part, without names below one name, that look alike become one where that makes "
+      "instead: merge only Shapes of one part, without names of their own, that look the same, where that makes "
       "compressed glTF smaller");
     faces.fineness_fields(f);
     f("csv", csv, "file for a table of the parts: id, name, appearance");

@@ -38,8 +38,8 @@ share nor the millions of positions that the mesh does not use cost more. Positi
   double crease_angle = -1;  // negative: what the mesh says
 
   void fields(auto&& f) {
-    f("recompute", recompute, "also where the file gives normals");
-    f("crease-angle", crease_angle, "in radians, instead of the file's creaseAngle; negative: the file's",
+    f("recompute", recompute, "replace the normals of the file, too");
+    f("crease-angle", crease_angle, "crease angle in radians, instead of that of the file; negative: that of the file",
       between(-1, 3.1416));
   }
 };

@@ -26,8 +26,8 @@ What `--unit` and `--up` put in front of a pipeline. Cost: constant.)";
   UpAxis up = UpAxis::y;
 
   void fields(auto&& f) {
-    f("unit", unit, "of the lengths in the file");
-    f("up", up, "axis that points upwards in the file");
+    f("unit", unit, "unit of length of the file");
+    f("up", up, "axis of the file that points up");
   }
 };
 Outcome place(Scene&, const PlaceOptions&, PassContext&);

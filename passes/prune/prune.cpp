@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenegraph/dangling_links.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
@@ -23,24 +24,11 @@ class Pruning {
     auto before = scene_.main.roots.size();
     std::erase_if(scene_.main.roots, [&](NodeId n) { return useless(n); });
     changed_ |= before != scene_.main.roots.size();
-    drop_links();
+    changed_ |= drop_dangling_links(scene_).any;
     return changed_ ? Outcome::changed : Outcome::unchanged;
   }
 
  private:
-  /// IMPORTs, EXPORTs and ROUTEs of nodes that are gone.
-  void drop_links() {
-    Scope& main = scene_.main;
-    if (main.imports.empty() && main.exports.empty() && main.routes.empty()) return;
-    std::vector<char> here(scene_.node_count());
-    for (NodeId n : all_nodes(scene_)) here[n.value] = 1;
-    for (const Import& i : main.imports) here[i.node.value] = here[i.inline_node.value];
-    changed_ |= std::erase_if(main.imports, [&](const Import& i) { return !here[i.node.value]; }) > 0;
-    changed_ |= std::erase_if(main.exports, [&](const Export& e) { return !here[e.node.value]; }) > 0;
-    changed_ |=
-        std::erase_if(main.routes, [&](const Route& r) { return !here[r.from.value] || !here[r.to.value]; }) > 0;
-  }
-
   bool useless(NodeId n) const {
     if (!n || kept_[n.value] || !scene_.name(n).empty()) return false;
     for (auto& v : scene_.fields(n))

@@ -57,10 +57,10 @@ Linear in the corners.)";
   bool split = true;
 
   void fields(auto&& f) {
-    f("tolerance", tolerance, "largest distance from what was there, in metres of the world; 0: by what a part shows");
+    f("tolerance", tolerance, "maximum distance from the original, in metres; 0: chosen for each part");
     f("split", split,
-      "geometry of several parts becomes several Shapes; otherwise it stays, and only geometry that is one form in "
-      "whole becomes it, which takes fewest bytes");
+      "split geometry of several parts into several Shapes; false: convert only geometry that is one form as a "
+      "whole, which takes the fewest bytes");
   }
 };
 

@@ -25,7 +25,7 @@ A surface that is not a manifold is reported and stays as it is; run `weld` befo
   int iterations = 10;
 
   void fields(auto&& f) {
-    f("iterations", iterations, "how often each point moves; closed surfaces become smaller by it", between(1, 1000));
+    f("iterations", iterations, "number of iterations; closed surfaces shrink a little with each", between(1, 1000));
   }
 };
 

@@ -15,8 +15,8 @@ namespace wrlkit {
 
 enum class SubdivisionScheme : std::uint8_t { loop, catmull_clark };
 template <>
-inline constexpr auto choices<SubdivisionScheme> =
-    choice_row({{"loop", "triangles of triangles, polygons are cut first"}, {"catmull-clark", "quadrilaterals"}});
+inline constexpr auto choices<SubdivisionScheme> = choice_row({{"loop", "triangles; polygons are triangulated first"},
+                                                               {"catmull-clark", "quadrilaterals"}});
 
 struct SubdivideOptions {
   static constexpr std::string_view doc =
@@ -37,10 +37,10 @@ stays as it is; run `weld` before. Cost: linear in the faces that come out.)";
   int max_triangles = 4'000'000;
 
   void fields(auto&& f) {
-    f("scheme", scheme, "what becomes of a face");
-    f("levels", levels, "how often; each makes four times the faces", between(1, 8));
-    f("max-triangles", max_triangles, "of all surfaces together; those that would be more are left as they are",
-      at_least(0));
+    f("scheme", scheme, "subdivision scheme");
+    f("levels", levels, "number of subdivisions; each makes four times as many faces", between(1, 8));
+    f("max-triangles", max_triangles,
+      "maximum number of triangles of all surfaces together; surfaces beyond it stay unchanged", at_least(0));
   }
 };
 

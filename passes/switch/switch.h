@@ -29,7 +29,7 @@ Cost: O(nodes).)";
   std::vector<std::pair<std::string, int>> choices;  // by name or pattern
 
   void fields(auto&& f) {
-    f("all", all, "what is off shows everything");
+    f("all", all, "Switches that are off show all their children");
     for (auto& [name, which] : choices) f(name, which, "child that a Switch of this name shows", at_least(-1));
   }
   /// An option of another name is the name of Switches.

@@ -85,13 +85,13 @@ a tolerance.)";
 
   void fields(auto&& f) {
     f("tolerance", tolerance,
-      "points up to this far apart are joined, in units of the geometry; auto: by the digits of the file");
-    f("degenerate", degenerate, "drop faces without area, and corners that repeat the one before");
-    f("duplicates", duplicates, "drop faces that are there already");
-    f("t-junctions", t_junctions, "give a point that lies on the open edge of a face to that face");
-    f("winding", winding, "turn faces that are wound against the majority of those around them");
-    f("outward", outward, "turn closed surfaces that are wound inside out");
-    f("merge-coplanar", merge_coplanar, "unite neighbours in one plane, as far as that gives simple polygons");
+      "maximum distance of points that are joined, in units of the geometry; auto: from the digits of the file");
+    f("degenerate", degenerate, "remove faces without area, and repeated corners");
+    f("duplicates", duplicates, "remove duplicate faces");
+    f("t-junctions", t_junctions, "insert points that lie on the open edge of a face into that face");
+    f("winding", winding, "turn faces that are wound against their neighbours");
+    f("outward", outward, "turn closed surfaces that are inside out");
+    f("merge-coplanar", merge_coplanar, "unite neighbours in one plane, where that gives a simple polygon");
   }
 };
 

@@ -147,3 +147,35 @@ def test_fields_that_are_called_as_properties(tmp_path):
     assert navigation.type == 'NavigationInfo' and navigation['type'] == ['WALK']
     navigation['type'] = 'FLY'
     assert navigation['type'] == ['FLY']
+
+
+def test_what_a_file_would_be_warned_of_is_an_error():
+    world = wrlkit.load(PUMP_ROOM)
+    material = world.nodes('Material')[0]
+    before = material.diffuseColor
+    for value in ((float('nan'), 0, 0), (2, 0, 0)):
+        with pytest.raises(ValueError, match='diffuseColor'):
+            material.diffuseColor = value
+    assert material.diffuseColor == before
+    with pytest.raises(ValueError, match='Material'):
+        world.nodes('Shape')[0].geometry = material
+    with pytest.raises(TypeError, match='MFRotation'):
+        world.add('OrientationInterpolator').keyValue = [[1, 2], [3, 4]]
+
+
+def test_names_that_no_reader_would_take_are_changed_where_they_are_written(tmp_path):
+    world = wrlkit.load(PUMP_ROOM)
+    world.nodes('Shape')[0].name = 'TK 101 {A}'
+    world.save(tmp_path / 'out.wrl')
+    assert any(m.name == 'name-changed' for m in world.messages)
+    assert wrlkit.load(tmp_path / 'out.wrl').find('TK_101__A_') is not None
+
+
+def test_a_group_in_itself_is_not_written(tmp_path):
+    world = wrlkit.load(PUMP_ROOM)
+    group = world.add('Group')
+    group.children = [group]
+    world.roots = [*world.roots, group]
+    with pytest.raises(wrlkit.Error):
+        world.save(tmp_path / 'out.wrl')
+    assert not (tmp_path / 'out.wrl').exists()

@@ -9,11 +9,16 @@
 """
 from typing import Any, Dict, Sequence
 
+try:
+    import numpy  # noqa: F401
+except ImportError as fault:
+    raise ImportError('wrlkit needs NumPy (Debian: python3-numpy)') from fault
+
 from . import nodes
-from ._wrlkit import Error, Mesh, Message, Node, World, convert, load, main, node_types, passes
+from ._wrlkit import __version__, Error, Mesh, Message, Node, World, convert, load, main, node_types, passes
 from .definitions import Range, pass_
 
-__all__ = ['Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'main', 'node_types', 'nodes', 'pass_', 'passes']
+__all__ = ['__version__', 'Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'main', 'node_types', 'nodes', 'pass_', 'passes']
 
 
 def info(path: str, allow: Sequence[str] = (), unit: str = '', up: str = '', recognise: bool = False) -> Dict[str, Any]:

@@ -42,7 +42,7 @@ TEST_CASE("IndexedFaceSet: bad indices and faces that are none are dropped and c
   CHECK(f.read().corners == Ints{0, 3, 4, 1, 1, 4, 5, 2});
   CHECK(f.mesh.face_begin == Ints{0, 4, 8});
   CHECK(f.diag.count(Diag::bad_index) == 1);
-  CHECK(f.message(0) == "IndexedFaceSet: 3 of 26 indices are out of range; their faces are dropped");
+  CHECK(f.message(0) == "IndexedFaceSet: indices out of range (3 of 26); their faces are dropped");
   CHECK(f.message(1) == "IndexedFaceSet: 2 faces without area are dropped");
 }
 

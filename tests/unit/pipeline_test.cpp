@@ -246,7 +246,7 @@ TEST_CASE("pipeline: an option that is one of several names has one row", "[pipe
   CHECK(quality == BakeQuality::high);
   CHECK_FALSE(read_choice("highest", quality));
   CHECK(choice_help<SubdivisionScheme>("what") ==
-        "what: loop, triangles of triangles, polygons are cut first; catmull-clark, quadrilaterals");
+        "what: loop, triangles; polygons are triangulated first; catmull-clark, quadrilaterals");
   CHECK(choice_help<BakeQuality>("how") == "how");
   // In every pass each of the names is read and comes back.
   for (const auto& p : passes())

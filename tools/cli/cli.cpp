@@ -65,7 +65,8 @@ bool limit(const Verb& verb, const Flags& f) {
   return true;
 }
 
-constexpr std::string_view program_help = "wrlkit: legacy virtual worlds (VRML97) to glTF, and back to better VRML";
+constexpr std::string_view program_help =
+    "wrlkit: convert legacy virtual worlds (VRML97, VRML 1.0, X3D) to glTF, 3D Tiles, or better VRML";
 
 std::vector<CLI::Option*> long_options(const CLI::App& app) {
   std::vector<CLI::Option*> out;
@@ -133,6 +134,7 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   CLI::App app(std::string(program_help), "wrlkit");
   app.set_version_flag("--version", std::string("wrlkit ") + WRLKIT_VERSION);
   app.require_subcommand(1);
+  app.footer("\n'wrlkit IN' is short for 'wrlkit info IN', 'wrlkit IN OUT' for 'wrlkit convert IN OUT'.");
   app.failure_message(CLI::FailureMessage::simple);
   // Tables of all verbs take longer to make than a small file to convert.
   const Verb* const only = given.empty() ? nullptr : find_verb(given[0]);

@@ -66,6 +66,8 @@ class Gatherer {
     if (n_found_ == 0 && out_.left_out.size() == n_before) leave_out("there are no scene files in '" + w + "'");
   }
 
+  std::size_t n_unwanted() const { return n_unwanted_; }
+
   Inputs take() {
     // Named twice, it is still one file.
     std::ranges::stable_sort(out_.files, {}, &InputFile::path);
@@ -199,6 +201,7 @@ class Gatherer {
     }
     if (!file.is_regular_file(none)) return;
     ++n_found_;
+    n_unwanted_ += !is_asset && !wanted(inside);
     if (is_asset || wanted(inside)) add(file.path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
   }
 
@@ -230,7 +233,8 @@ class Gatherer {
   static constexpr int most_depth = 64;
   const InputRules& rules_;
   fs::path output_;
-  std::size_t n_found_ = 0;  // by the word that is looked at; --include and --exclude may take them away
+  std::size_t n_found_ = 0;     // by the word that is looked at; --include and --exclude may take them away
+  std::size_t n_unwanted_ = 0;  // those that they took away, of all words
   Inputs out_;
 };
 
@@ -241,7 +245,10 @@ std::optional<Inputs> gather_inputs(const std::vector<std::string>& words, const
   for (const auto& w : words) gatherer.word(w);
   auto out = gatherer.take();
   if (!std::ranges::all_of(out.files, &InputFile::asset)) return out;
-  why = out.left_out.empty() ? "there are no scene files in '" + words[0] + "'" : in_one_line(out.left_out);
+  if (gatherer.n_unwanted() > 0)
+    why = fmt::format("none of {} scene files matches --include and --exclude", gatherer.n_unwanted());
+  else
+    why = out.left_out.empty() ? "there are no scene files in '" + words[0] + "'" : in_one_line(out.left_out);
   return std::nullopt;
 }
 

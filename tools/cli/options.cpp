@@ -7,27 +7,14 @@
 
 #include "base/math/digits.h"
 #include "base/text/amounts.h"
-#include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
 #include "convert/formats.h"
-#include "convert/options.h"
+#include "convert/option_text.h"
 #include "convert/profiles.h"
 #include "geometry/simplify/levels.h"
 
 namespace wrlkit::cli {
 namespace {
-
-/// The name of a value as it should have been written: in any case, and units by their other names.
-template <Choice E>
-std::string forgiven(const std::string& text) {
-  const std::string lower = lower_case(text);
-  for (const auto& c : choices<E>) {
-    if (c.name == text || c.name == lower) return std::string(c.name);
-    if constexpr (std::is_same_v<E, Unit>)
-      if (metres_in(text) && metres_in(text) == metres_in(c.name)) return std::string(c.name);
-  }
-  return text;
-}
 
 template <Choice E>
 std::string choice_fault(const std::string& text) {
@@ -80,7 +67,7 @@ struct AddOption {
     verb.add_option_function<std::string>("--" + std::string(name), read, choice_help<E>(help))
         ->transform(CLI::Validator(
             [](std::string& text) {
-              text = forgiven<E>(text);
+              text = option_value::forgiven<E>(text);
               return choice_fault<E>(text);
             },
             "{" + CLI::detail::join(names, ",") + "}"))
@@ -123,19 +110,20 @@ std::string tile_size_fault(const std::string& text) {
 
 void common(CLI::App& verb, Flags& f) {
   auto* g = verb.add_option_group("every verb");
-  g->add_flag("-q,--quiet", f.quiet, "print no warnings and no progress, only errors");
-  g->add_flag("-v,--verbose", f.verbose, "print what is done");
-  g->add_flag("--json", f.json, "print for machines");
-  g->add_flag("--strict", f.load.strict, "every repair is an error");
-  g->add_option("--report", f.report, "write what happened to this file, as JSON")->type_name("FILE");
-  g->add_option("--allow-path", f.load.allow_paths, "files below this folder may be read, too (Inline, textures)")
+  g->add_flag("-q,--quiet", f.quiet, "print only errors: no warnings, no progress");
+  g->add_flag("-v,--verbose", f.verbose, "print what is being done");
+  g->add_flag("--json", f.json, "print JSON");
+  g->add_flag("--strict", f.load.strict, "treat every repair as an error");
+  g->add_option("--report", f.report, "write all messages and figures to this file, as JSON")->type_name("FILE");
+  g->add_option("--allow-path", f.load.allow_paths,
+                "allow files below this folder to be read (Inlines, textures); can be repeated")
       ->type_name("DIR")
       ->allow_extra_args(false);
   g->add_flag("--strict-paths", f.strict_paths,
-              "read nothing above the folder of the input but what --allow-path names");
-  g->add_option("--jobs", f.jobs, "threads; 0: all cores")->check(CLI::Range(0, 1024));
-  if (!verb.get_option_no_throw("--timeout")) timeout(*g, f, "give up what takes longer: 90s, 10m, 2h");
-  g->add_option("--memory", f.memory, "give up beyond that much memory: 800M, 8G")
+              "read nothing above the folder of the input except what --allow-path allows");
+  g->add_option("--jobs", f.jobs, "number of threads; 0: one for each core")->check(CLI::Range(0, 1024));
+  if (!verb.get_option_no_throw("--timeout")) timeout(*g, f, "stop after this time: 90s, 10m, 2h");
+  g->add_option("--memory", f.memory, "stop beyond this amount of memory: 800M, 8G")
       ->type_name("SIZE")
       ->check(memory_fault, "", "");
 }
@@ -149,7 +137,7 @@ CLI::Option* timeout(CLI::App& verb, Flags& f, const char* help) {
 
 void input(CLI::App& verb, Flags& f) {
   verb.add_option_function<std::string>(
-          "IN", [&f](const std::string& path) { f.inputs = {path}; }, "the world; - is standard input")
+          "IN", [&f](const std::string& path) { f.inputs = {path}; }, "the input file; - is standard input")
       ->required();
 }
 
@@ -186,7 +174,7 @@ CLI::Validator a_share() {
 
 void python(CLI::App& verb, Flags& f) {
   verb.add_option("--python", f.python,
-                  "a file with passes in Python, which then have a name like all others; see docs/python.md")
+                  "load passes written in Python from this file; can be repeated; see docs/python.md")
       ->type_name("FILE")
       ->allow_extra_args(false);
 }
@@ -195,12 +183,12 @@ void pipeline(CLI::App& verb, Flags& f) {
   verb.add_option("-p,--pipeline", f.pipeline, "passes to run, or the name of a pipeline; see wrlkit passes")
       ->type_name("PASSES");
   python(verb, f);
-  verb.add_flag("--print-pipeline", f.print_pipeline, "print the whole pipeline with all options, and end");
+  verb.add_flag("--print-pipeline", f.print_pipeline, "print the complete pipeline with all options, and exit");
   verb.add_flag("--verify-each", f.verify_each, "check the scene after each pass");
-  verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass, or after all")
+  verb.add_option("--print-after", f.print_after, "print the scene as VRML after this pass; all: after each pass")
       ->type_name("PASS");
   verb.add_flag("--time-passes", f.time_passes, "print how long each pass took");
-  verb.add_flag("--stats", f.stats, "print what the passes counted");
+  verb.add_flag("--stats", f.stats, "print the statistics of the passes");
 }
 
 void light(CLI::App& verb, Flags& f) {
@@ -218,19 +206,19 @@ void files(CLI::App& verb, Flags& f) {
 void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
-  verb.add_option("--profile", f.profile, "the program that will open it, which sets the defaults")
+  verb.add_option("--profile", f.profile, "set defaults for the program that will load the file")
       ->check(one_of(profile_names()));
 }
 
 void in_place(CLI::App& verb, Flags& f) {
-  verb.add_flag("--in-place", f.load.in_place, "OUT may be IN, which is then kept as IN.bak");
+  verb.add_flag("--in-place", f.load.in_place, "allow OUT to be IN, which is kept as IN.bak");
 }
 
-void method(CLI::App& verb, Flags& f) { AddOption{verb}("method", f.method, "how the light is found"); }
+void method(CLI::App& verb, Flags& f) { AddOption{verb}("method", f.method, "method"); }
 
 void level(CLI::App& verb, Flags& f) {
   verb.add_option("--level", f.level,
-                  "of each LOD: that level, from 0, or its last; auto, by the distance, as browsers choose")
+                  "level of each LOD, from 0 (the last, if it has fewer); auto: by distance, as browsers choose")
       ->check(
           [](const std::string& s) {
             return is_level(s) ? "" : "'" + s + "' is neither a number from 0 to 999 nor auto";
@@ -243,18 +231,18 @@ void level(CLI::App& verb, Flags& f) {
 void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint")
       ->check([](const std::string& s) { return s.empty() ? "the name of a Viewpoint is missing" : ""; }, "", "");
-  verb.add_flag("--fit", f.fit, "look at the whole world, not from a Viewpoint");
-  verb.add_option("--look-at", f.look_at, "eye, target and up: nine numbers")->expected(9)->delimiter(',');
-  verb.add_option("--background", f.background, "colour instead of the world's background: three numbers from 0 to 1")
+  verb.add_flag("--fit", f.fit, "show the whole scene instead of using a Viewpoint");
+  verb.add_option("--look-at", f.look_at, "eye, target and up vector: nine numbers")->expected(9)->delimiter(',');
+  verb.add_option("--background", f.background, "background colour: three numbers from 0 to 1")
       ->expected(3)
       ->delimiter(',');
-  AddOption{verb}("headlight", f.headlight, "a light where the viewer is");
-  verb.add_option("--field-of-view", f.field_of_view, "of the shorter side of the picture, in degrees")
-      ->check(CLI::Range(0.0, 179.0));
-  AddOption{verb}("mode", f.mode, "how it is drawn");
-  AddOption{verb}("lamps", f.lamps, "of --mode path: how the light of PointLights and SpotLights falls with distance");
+  AddOption{verb}("headlight", f.headlight, "light at the camera");
+  verb.add_option("--field-of-view", f.field_of_view, "field of view along the shorter side of the picture, in degrees")
+      ->check(CLI::Range(0.1, 179.0));
+  AddOption{verb}("mode", f.mode, "what is drawn");
+  AddOption{verb}("lamps", f.lamps, "--mode path: how the light of PointLights and SpotLights decreases with distance");
   verb.add_option("--exposure", f.exposure,
-                  "of --mode path: factor on its light; auto: what brings it to middle grey, which is reported")
+                  "--mode path: factor for the light; auto: a factor that gives middle grey, which is reported")
       ->check(
           [](const std::string& text) {
             return Exposure().read(text) ? "" : "'" + text + "' is neither auto nor a factor above 0";
@@ -269,41 +257,41 @@ void format(CLI::App& verb, Flags& f, const std::string& help) {
 }
 
 void globs(CLI::App& verb, Flags& f) {
-  verb.add_option("--include", f.include, "of folders, only files like these: '*.wrl', 'unit_1/**'")->type_name("GLOB");
-  verb.add_option("--exclude", f.exclude, "of folders, no files like these")->type_name("GLOB");
+  verb.add_option("--include", f.include, "read only matching files of folders: '*.wrl', 'unit_1/**'")
+      ->type_name("GLOB");
+  verb.add_option("--exclude", f.exclude, "skip matching files of folders")->type_name("GLOB");
 }
 
 void tiles(CLI::App& verb, Flags& f) {
-  verb.add_option("--shard", f.shard,
-                  "one of several processes that make a set together, in one folder: 2/8, the second of eight; auto, "
-                  "auto/8: by the environment of Slurm or Kubernetes. The last to end writes tileset.json")
+  verb.add_option(
+          "--shard", f.shard,
+          "share of one of several processes that make a set together in one folder: 2/8 is the second of eight; "
+          "auto, auto/8: from the environment of Slurm or Kubernetes; the last process writes tileset.json")
       ->type_name("I/N");
   verb.add_flag("--update", f.update,
-                "keep in DIR/.wrlkit what has been made, and make again only tiles whose parts have changed since the "
-                "last such run; the bytes are those of a new run");
-  verb.add_option("--tile-triangles,--triangles", f.tile_triangles, "that a tile draws, at most")
+                "make only tiles whose parts have changed since the last run with --update, which keeps its results in "
+                "DIR/.wrlkit; the bytes are those of a new run");
+  verb.add_option("--tile-triangles,--triangles", f.tile_triangles, "maximum number of triangles in a tile")
       ->check(CLI::Range(100, 10'000'000))
       ->capture_default_str();
   verb.add_option(
           "--tile-draws", f.tile_draws,
-          "draw calls of a tile, at most: where it has more materials, those that differ in colour alone become "
-          "colours of vertices")
+          "maximum number of draw calls of a tile: if it has more materials, those that differ only in colour become "
+          "vertex colours")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   verb.add_option("--tile-bytes", f.tile_bytes,
-                  "of a tile: 500K, 4M; coarse tiles get smaller pictures where they have more")
+                  "maximum size of a tile: 500K, 4M; coarse tiles get smaller pictures if necessary")
       ->type_name("SIZE")
       ->check(tile_size_fault, "", "")
       ->capture_default_str();
   verb.add_option("--tileset-tiles", f.tileset_tiles,
-                  "that tileset.json describes, at most; more are described in files next to the tiles, which viewers "
-                  "load when they "
-                  "need them")
+                  "maximum number of tiles in tileset.json; the rest is in files next to the tiles, loaded on demand")
       ->check(CLI::Range(1, 1'000'000'000))
       ->capture_default_str();
   verb.add_option("--at", f.at,
-                  "where the origin of the world is on the Earth: latitude, longitude (degrees), metres above the "
-                  "ellipsoid, and, if need be, where its -z points to, in degrees from north towards east")
+                  "position of the origin on the Earth: latitude and longitude in degrees, metres above the ellipsoid, "
+                  "and optionally the heading of -z, in degrees from north towards east")
       ->delimiter(',')
       ->type_name("LAT,LON,HEIGHT[,HEADING]");
   constexpr std::string_view of_content[] = {"compress",       "tolerance",       "draco-level",
@@ -313,25 +301,26 @@ void tiles(CLI::App& verb, Flags& f) {
   });
   verb.get_option("--compress")->default_str("meshopt");
   verb.add_flag("--gpu-instancing,!--no-gpu-instancing", f.save.gpu_instancing,
-                "a surface that stands in several places of a tile is stored once, with a table of places "
-                "(EXT_mesh_gpu_instancing), where that saves bytes and draws are left; the default");
+                "store a surface that occurs several times in a tile once, with a table of places "
+                "(EXT_mesh_gpu_instancing), where that saves bytes within the draw calls; the default");
 }
 
 void corpus_inputs(CLI::App& verb, Flags& f) {
-  verb.add_option("RECIPE", f.recipe, "a recipe; see docs/recipes.md")->required();
-  verb.add_option("IN", f.inputs, "folders, globs, worlds, @FILE: a list of worlds; -: such a list on standard input")
+  verb.add_option("RECIPE", f.recipe, "the recipe; see docs/recipes.md")->required();
+  verb.add_option("IN", f.inputs,
+                  "scenes, folders, globs, @FILE (a list of scenes); - is such a list on standard input")
       ->required();
-  verb.add_option("-o,--output", f.output, "folder for the outputs, which stand in it as the inputs in theirs")
+  verb.add_option("-o,--output", f.output, "output folder, with the same tree as the input")
       ->required()
       ->type_name("DIR");
-  format(verb, f, "ending of the outputs");
+  format(verb, f, "format of the outputs");
   globs(verb, f);
-  verb.add_option("--base", f.base,
-                  "files of lists stand in the output as below this folder; else as below the current one")
+  verb.add_option("--base", f.base, "folder to which the paths in lists are relative; default: the current one")
       ->type_name("DIR");
-  verb.add_option(
-          "--shard", f.shard,
-          "only a part of the files: 2/8, the second of eight; auto, auto/8: by the environment of Slurm or Kubernetes")
+  verb.add_option("--shard", f.shard,
+                  "process only a share of the files: 2/8 is the second of eight; auto, auto/8: from the environment "
+                  "of Slurm or "
+                  "Kubernetes")
       ->type_name("I/N");
 }
 

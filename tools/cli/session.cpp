@@ -130,7 +130,7 @@ int Session::end(bool made, int not_made) {
   std::fflush(stdout);  // what it is about stands before the messages
   const auto text = brief_ ? messages_brief : messages_text;
   std::fputs(text(diag(), isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
-  if (!flags_.report.empty() && !write_report(code)) return usage;
+  if (!flags_.report.empty() && !write_report(code)) return nothing;
   return code;
 }
 

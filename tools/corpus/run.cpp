@@ -76,7 +76,7 @@ struct Planned {
 };
 
 /// `code`: of what is wrong, when something is, which was printed.
-std::optional<Planned> plan_of(const Flags& flags, bool assets, int& code) {
+std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool assets, int& code) {
   code = usage;
   std::string why;
   Planned p;
@@ -101,7 +101,7 @@ std::optional<Planned> plan_of(const Flags& flags, bool assets, int& code) {
     return fail();
   }
   p.left_out = std::move(inputs->left_out);
-  print_left_out("corpus run", p.left_out);
+  print_left_out(verb, p.left_out);
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
   if (!plan) return fail();
   p.plan = std::move(*plan);
@@ -165,6 +165,7 @@ class Run {
     }
     journal_.settle();
     if (!Workers::interrupted()) status.end(work_.out);
+    if (flags_.json) fmt::print("{}\n", status.json());
     if (status.n_made() == 0 && status.n_done() > 0) return nothing;
     return complete_ && status.n(JobState::made) == status.n_done() ? done : partly;
   }
@@ -434,7 +435,7 @@ int run_corpus_run(const Flags& flags) {
   const auto work = asked_work(flags);
   if (!work) return usage;
   int code = usage;
-  const auto planned = plan_of(flags, work->text, code);
+  const auto planned = plan_of("corpus run", flags, work->text, code);
   if (!planned) return code;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
@@ -449,7 +450,7 @@ int run_corpus_plan(const Flags& flags) {
   const auto work = asked_work(flags);
   if (!work) return usage;
   int code = usage;
-  const auto planned = plan_of(flags, work->text, code);
+  const auto planned = plan_of("corpus plan", flags, work->text, code);
   if (!planned) return code;
   print_plan(*planned, flags);
   return planned->left_out.empty() ? done : partly;

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/text/json.h"
 #include "base/text/json_reader.h"
 #include "base/text/utf8.h"
 
@@ -108,6 +109,17 @@ void CorpusStatus::count_errors(const std::string& messages) {
 void CorpusStatus::end(const std::string& out) {
   clear();
   if (!quiet_) fmt::print(stderr, "{}{}", summary(), lacking(out));
+}
+
+std::string CorpusStatus::json() const {
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("files", files_, "done", done_, "done_before", before_);
+      for (const auto state : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed,
+                               JobState::timeout, JobState::no_memory})
+        json.member(to_string(state), n(state));
+    });
+  });
 }
 
 std::string CorpusStatus::lacking(const std::string& out) const {

@@ -25,6 +25,8 @@ class CorpusStatus {
   void count_errors(const std::string& messages);
   /// The last lines: what became of all files, and what the outputs lack.
   void end(const std::string& out);
+  /// The same counts: files, those of earlier runs, and how many came to each end.
+  std::string json() const;
 
   std::size_t n(JobState s) const { return states_[static_cast<std::size_t>(s)]; }
   std::size_t n_made() const { return n(JobState::made) + n(JobState::made_partly); }

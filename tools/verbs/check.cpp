@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include "base/text/json.h"
+#include "convert/missing_files.h"
 #include "convert/nothing_shown.h"
 #include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
@@ -33,6 +34,7 @@ void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
   report_undrawn(s.world().scene, s.diag());
   report_startup_scripts(s.world().scene, s.diag());
+  report_missing_media(s.world().scene, s.resources(), s.diag());
   if (!s.flags().quick) return check_contents(s);
   std::string why;
   if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());

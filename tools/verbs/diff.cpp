@@ -96,7 +96,13 @@ std::string difference_text(const WorldDifference& d, const Flags& flags) {
 }  // namespace
 
 int run_diff(const Flags& flags) {
-  Session s(flags);
+  if (flags.inputs[0] == "-" && flags.inputs[1] == "-") {
+    fmt::print(stderr, "wrlkit diff: only one of the two can be standard input\n");
+    return usage;
+  }
+  Flags compared = flags;
+  compared.load.gltf_in_metres = true;  // what a file in inches became by convert --unit in
+  Session s(compared);
   if (!s.good()) return usage;
   const auto facts = [&](const std::string& path) {
     return s.read(path) ? facts_of(std::move(s.document())) : std::nullopt;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/text/json.h"
 #include "parsers/patches/patches.h"
@@ -82,6 +83,23 @@ std::string unit_hint(const Box& b) {
   return fmt::format("  {:.6g} m is wide: if the unit is another one, say so (--unit mm, --unit in)\n", longest);
 }
 
+/// Places of scenes far away from the origin with the digits that tell their sizes.
+std::string bounds_text(const Box& b) {
+  double farthest = 0, extent = 0;
+  for (int i = 0; i < 3; ++i) {
+    farthest = std::max({farthest, std::abs(b.low[i]), std::abs(b.high[i])});
+    extent = std::max(extent, b.high[i] - b.low[i]);
+  }
+  constexpr int fewest = 6, most = 15, of_extent = 4;
+  const double times = extent > 0 ? std::ceil(std::log10(farthest / extent)) : 0;
+  const int digits = std::clamp(of_extent + static_cast<int>(std::clamp(times, 0.0, double{most})), fewest, most);
+  const auto place = [digits](const auto& p) {
+    return fmt::format("{:.{}g} {:.{}g} {:.{}g}", p[0], digits, p[1], digits, p[2], digits);
+  };
+  return fmt::format("  from {} to {}: {:.6g} x {:.6g} x {:.6g} m\n", place(b.low), place(b.high), b.high[0] - b.low[0],
+                     b.high[1] - b.low[1], b.high[2] - b.low[2]);
+}
+
 std::string info_text(const std::string& file, const Info& i) {
   const auto& b = i.geometry.bounds;
   std::string out = fmt::format("{}: {}{}, {} bytes\n", file, to_string(i.format), i.gzip ? " (gzip)" : "", i.bytes);
@@ -89,10 +107,7 @@ std::string info_text(const std::string& file, const Info& i) {
   const auto unique = g.unique == g.triangles ? "" : fmt::format(" ({} unique)", g.unique);
   out += fmt::format("  shapes {}, polygons {}, triangles {}{}, lines {}, points {}\n", g.shapes, g.polygons,
                      g.triangles, unique, g.lines, g.points);
-  if (!b.empty())
-    out += fmt::format("  from {:.6g} {:.6g} {:.6g} to {:.6g} {:.6g} {:.6g}: {:.6g} x {:.6g} x {:.6g} m\n", b.low[0],
-                       b.low[1], b.low[2], b.high[0], b.high[1], b.high[2], b.high[0] - b.low[0], b.high[1] - b.low[1],
-                       b.high[2] - b.low[2]);
+  if (!b.empty()) out += bounds_text(b);
   out += unit_hint(b);
   out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(),
                      i.lights, i.viewpoints, i.lods);

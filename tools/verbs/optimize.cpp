@@ -20,9 +20,17 @@ std::string names_text(const Optimized& made) {
   return out + '\n';
 }
 
+/// A .glb as it is on disk; of a .gltf, with files next to it, what they hold together.
+std::uint64_t bytes_after(const Session& s, const Optimized& made) {
+  std::error_code none;
+  const bool is_glb = output_of(s.flags().output)->format->endings != ".gltf";
+  const auto size = is_glb ? std::filesystem::file_size(s.flags().output, none) : 0;
+  return is_glb && !none ? size : made.gltf->bytes();
+}
+
 std::string text(const Session& s, std::uint64_t before, const Optimized& made) {
   return fmt::format("{} ({} bytes) -> {} ({} bytes)\n{}{}", s.flags().inputs[0], before, s.flags().output,
-                     made.gltf->bytes(), summary_text(*made.gltf), names_text(made));
+                     bytes_after(s, made), summary_text(*made.gltf), names_text(made));
 }
 
 /// What was made, and all messages; of an input that nothing could be made of, the messages alone.
@@ -31,7 +39,7 @@ std::string figures_json(Session& s, std::uint64_t before, const Optimized& made
            json.object([&] {
              json.members("input", s.flags().inputs[0], "output", s.flags().output, "profile", s.flags().profile);
              if (made) {
-               json.members("bytes_before", before, "bytes_after", made.gltf->bytes(), "names_before", made.n_names,
+               json.members("bytes_before", before, "bytes_after", bytes_after(s, made), "names_before", made.n_names,
                             "names_lost", std::span<const std::string>(made.lost), "names_not_shown",
                             std::span<const std::string>(made.not_shown));
                json.member("gltf", JsonText{summary_json(*made.gltf)});
@@ -40,12 +48,6 @@ std::string figures_json(Session& s, std::uint64_t before, const Optimized& made
            });
          }) +
          "\n";
-}
-
-std::uint64_t bytes_of_file(const std::string& path) {
-  std::error_code fault;
-  const auto size = std::filesystem::file_size(path, fault);
-  return fault ? 0 : size;
 }
 
 }  // namespace
@@ -78,10 +80,12 @@ int run_optimize(const Flags& given) {
   Backup backup(flags);
   if (!backup.good()) return nothing;
   options.measure_gzip = !flags.quiet;
-  const std::uint64_t before = bytes_of_file(flags.inputs[0]);
+  std::uint64_t before = 0;
   Optimized made;
-  if (read_input(s))
+  if (read_input(s)) {
+    before = s.world().bytes;
     made = optimize(s.document(), s.pipeline(), *output_of(flags.output), options, {s.pipeline_options()});
+  }
   if (made) {
     backup.keep();
     s.fact("gltf", summary_json(*made.gltf));

@@ -25,8 +25,9 @@ Image draw(Session& s, const MeshSource& meshes, RenderOptions options, std::str
 
 namespace {
 
-bool write_bytes(Session& s, std::string_view bytes, const std::string& name) {
-  auto file = OutputFile::open(name, {.inputs = &s.resources().files_read()}, s.diag());
+/// `is_derived`: nobody has chosen the name.
+bool write_bytes(Session& s, std::string_view bytes, const std::string& name, bool is_derived = false) {
+  auto file = OutputFile::open(name, {.inputs = &s.resources().files_read(), .report_replaced = is_derived}, s.diag());
   if (!file) return false;
   file->write(bytes);
   return file->commit(s.diag());
@@ -34,14 +35,14 @@ bool write_bytes(Session& s, std::string_view bytes, const std::string& name) {
 
 }  // namespace
 
-bool write_picture(Session& s, const Image& picture, const std::string& name) {
+bool write_picture(Session& s, const Image& picture, const std::string& name, bool is_derived) {
   std::string why;
   auto bytes = encode_as(name == "-" ? ".png" : name, picture, why);
   if (!bytes) {
     s.diag().report(Diag::cannot_write, {}, name, why);
     return false;
   }
-  return write_bytes(s, *bytes, name);
+  return write_bytes(s, *bytes, name, is_derived);
 }
 
 namespace {
@@ -92,7 +93,7 @@ class Turntable {
   static constexpr int milliseconds = 80;  // of each picture: 36 of them go round in 2.9 s
 
   bool take(const Image& picture, int i) {
-    if (!ends_with_ignoring_case(name_, ".webp")) return write_picture(s_, picture, numbered(name_, i));
+    if (!ends_with_ignoring_case(name_, ".webp")) return write_picture(s_, picture, numbered(name_, i), true);
     std::string why;
     if (!animation_) animation_ = begin_webp_animation(milliseconds, why);
     if (animation_ && animation_->add(picture, why)) return true;

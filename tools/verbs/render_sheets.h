@@ -12,8 +12,9 @@ MeshSource open_world(Session&, const std::string& input);
 /// A picture of the world that is open; --mode path says how far it is, as `name`. `diag`: where messages go, if not to
 /// the session's.
 Image draw(Session&, const MeshSource&, RenderOptions, std::string name, Diagnostics* diag = nullptr);
-/// In the format of its name; false when not, which is reported.
-bool write_picture(Session&, const Image&, const std::string& name);
+/// In the format of its name; false when not, which is reported. `is_derived`: nobody has chosen the name, so a file of
+/// other contents that it replaces is reported.
+bool write_picture(Session&, const Image&, const std::string& name, bool is_derived = false);
 
 /// The inputs are several scenes.
 bool is_sheet(const Flags&);

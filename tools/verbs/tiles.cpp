@@ -94,7 +94,7 @@ std::vector<Level> levels_of(const TilesMade& made) {
 
 std::string text_of(const TilesMade& made, const std::string& folder) {
   if (!made.whole)
-    return fmt::format("{}: this shard has made its tiles; {} are left to others\n", folder,
+    return fmt::format("{}: this shard has made its tiles; other shards make {}\n", folder,
                        counted(made.n_left, "tile"));
   auto out = fmt::format("{} -> {}: {}, {} bytes\n  {}, {}\n", counted(made.n_files, "file"),
                          (std::filesystem::path(folder) / "tileset.json").string(), counted(made.tiles.size(), "tile"),

@@ -58,14 +58,15 @@ class Files {
  public:
   Files(const FilesRead* inputs, Diagnostics& diag) : inputs_(inputs), diag_(diag) {}
 
+  /// The file that the output is named after. Where it replaces one, what is next to that goes with it, unreported.
   bool open(const std::filesystem::path& path) {
-    auto file = OutputFile::open(path.string(), {.inputs = inputs_}, diag_);
-    if (file) files_.push_back(std::move(*file));
-    return file.has_value();
+    std::error_code none;
+    is_new_ = !std::filesystem::exists(path, none);
+    return add(path, false);
   }
   OutputFile& first() { return files_.front(); }
   bool write(const std::filesystem::path& path, const std::vector<std::string_view>& pieces) {
-    if (!open(path)) return false;
+    if (!add(path, is_new_)) return false;
     files_.back().write(pieces);
     return true;
   }
@@ -74,9 +75,16 @@ class Files {
   }
 
  private:
+  bool add(const std::filesystem::path& path, bool report_replaced) {
+    auto file = OutputFile::open(path.string(), {.inputs = inputs_, .report_replaced = report_replaced}, diag_);
+    if (file) files_.push_back(std::move(*file));
+    return file.has_value();
+  }
+
   const FilesRead* inputs_;
   Diagnostics& diag_;
   std::vector<OutputFile> files_;
+  bool is_new_ = false;
 };
 
 class Writer {

@@ -31,9 +31,10 @@ struct GltfCompression {
 };
 template <>
 inline constexpr auto choices<GltfCompression::Method> = choice_row({{"none", "as floats"},
-                                                                     {"quantize", "in fewer bits"},
-                                                                     {"meshopt", "that and packed"},
-                                                                     {"draco", "packed smaller, each mesh by itself"}});
+                                                                     {"quantize",
+                                                                      "as integers (KHR_mesh_quantization)"},
+                                                                     {"meshopt", "quantized and compressed"},
+                                                                     {"draco", "smaller, but each mesh by itself"}});
 
 /// How pictures are stored. keep: PNG and JPEG as they are, others as PNG. jpeg, webp: colour pictures in that format
 /// where that is smaller, see recoding.h.
@@ -48,8 +49,8 @@ template <>
 inline constexpr auto choices<GltfTextures::Format> =
     choice_row({{"keep", "PNG and JPEG as they are"},
                 {"png"},
-                {"jpeg", "of colours without alpha, where it is smaller"},
-                {"webp", "of colours, where it is smaller (EXT_texture_webp)"}});
+                {"jpeg", "for colours without alpha, where it is smaller"},
+                {"webp", "for colours, where it is smaller (EXT_texture_webp)"}});
 
 /// What was written.
 struct GltfSummary {
@@ -125,22 +126,22 @@ struct GltfOptions {
 template <>
 inline constexpr auto choices<GltfOptions::Lightmaps> = choice_row({{"base-color", "in the texture of unlit materials"},
                                                                     {"emissive"},
-                                                                    {"occlusion", "its brightness alone"},
+                                                                    {"occlusion", "brightness only"},
                                                                     {"moz", "as MOZ_lightmap"},
-                                                                    {"extras", "for programs that look there"}});
+                                                                    {"extras", "for programs that read it there"}});
 template <>
-inline constexpr auto choices<GltfOptions::Hidden> =
-    choice_row({{"dropped", "not drawn by any viewer"},
-                {"invisible", "nodes that a viewer may show (KHR_node_visibility; others show them)"}});
+inline constexpr auto choices<GltfOptions::Hidden> = choice_row(
+    {{"dropped", "left out"},
+     {"invisible", "hidden nodes that a viewer can show (KHR_node_visibility; viewers without it show them)"}});
 template <>
 inline constexpr auto choices<GltfOptions::Behaviour> = choice_row(
-    {{"extras", "not run by any viewer"},
-     {"interactivity", "clicks, sensors, clocks and Switches as a graph that viewers run (KHR_interactivity)"}});
+    {{"extras", "kept, but not run by viewers"},
+     {"interactivity", "a graph of clicks, sensors, clocks and Switches that viewers run (KHR_interactivity)"}});
 template <>
 inline constexpr auto choices<GltfOptions::Names> =
-    choice_row({{"nodes", "each part is one"},
+    choice_row({{"nodes", "a node for each part"},
                 {"table",
-                 "a table of names and groups that places and merged meshes refer to (EXT_structural_metadata, "
+                 "a table of names and groups for instances and merged meshes (EXT_structural_metadata, "
                  "EXT_mesh_gpu_instancing; with --extras facts)"}});
 
 namespace gltf {

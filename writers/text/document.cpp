@@ -5,11 +5,12 @@
 
 namespace wrlkit {
 
-TextDocument::TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink)
+TextDocument::TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink,
+                           Diagnostics& diag)
     : scene_(scene),
       urls_(scene),
       out_(sink),
-      names_(scene, style.dialect, own_fields),
+      names_(scene, style.dialect, own_fields, diag),
       style_(style),
       precision_(precision),
       printed_(scene.node_count(), 0) {}

@@ -21,7 +21,7 @@ class TextDocument {
     bool wraps_images = false;
   };
 
-  TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink);
+  TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink, Diagnostics&);
 
   TextOut& line();
   /// What `print` prints stands one step to the right.

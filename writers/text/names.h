@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/diagnostics.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -36,11 +38,12 @@ void for_each_statement(const Scene& scene, Dialect dialect, const std::unordere
 
 /// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what is in one and
 /// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are
-/// met in the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own.
+/// met in the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own. So
+/// does one whose name no reader would take for a name, as programs may give it; that is reported.
 class Names {
  public:
-  Names(const Scene& scene, Dialect dialect, bool own_fields)
-      : scene_(scene), dialect_(dialect), own_fields_(own_fields), met_(scene.node_count(), 0) {
+  Names(const Scene& scene, Dialect dialect, bool own_fields, Diagnostics& diag)
+      : scene_(scene), dialect_(dialect), own_fields_(own_fields), diag_(diag), met_(scene.node_count(), 0) {
     for (const auto& t : scene.own_types())
       if (t.kind == NodeKind::unknown) unknown_.insert(t.name);
   }
@@ -100,7 +103,10 @@ class Names {
         referred(n);
         continue;
       }
-      if (auto name = scene_.name(n); !name.empty()) last_[name] = n;
+      if (auto name = scene_.name(n); !name.empty()) {
+        last_[name] = n;
+        if (!is_one_word(name)) repair(n, name);
+      }
       auto mark = stack.size();
       for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
       std::reverse(stack.begin() + static_cast<std::ptrdiff_t>(mark), stack.end());
@@ -120,21 +126,33 @@ class Names {
     given_[n.value] = fresh(name);
   }
 
-  std::string fresh(std::string_view base) {
+  void repair(NodeId n, std::string_view name) {
+    if (given_.count(n.value)) return;
+    auto legal = legal_name(name);
+    const auto& written = given_[n.value] = taken().insert(legal).second ? legal : fresh(legal);
+    diag_.report(Diag::name_changed, scene_.where(n), name, written);
+  }
+
+  std::unordered_set<std::string>& taken() {
     if (taken_.empty()) {
       taken_.insert("");
       for (std::uint32_t i = 0; i < scene_.node_count(); ++i) taken_.insert(std::string(scene_.name(NodeId{i})));
     }
+    return taken_;
+  }
+
+  std::string fresh(std::string_view base) {
     auto& k = counter_[std::string(base)];
     for (;;) {
       std::string s = (base.empty() ? std::string("_") : std::string(base) + "_") + std::to_string(++k);
-      if (taken_.insert(s).second) return s;
+      if (taken().insert(s).second) return s;
     }
   }
 
   const Scene& scene_;
   Dialect dialect_;
   bool own_fields_;
+  Diagnostics& diag_;
   std::unordered_set<std::string_view> unknown_;
   std::vector<std::uint32_t> met_;  // the last scope that held the node
   std::uint32_t scope_ = 0;

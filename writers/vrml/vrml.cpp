@@ -13,13 +13,13 @@ namespace {
 
 class VrmlWriter : TextDocument {
  public:
-  VrmlWriter(const Scene& scene, const TextOptions& options, const Sink& sink)
+  VrmlWriter(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
       : TextDocument(scene,
                      {.dialect = Dialect::vrml97,
                       .yes = "TRUE",
                       .no = "FALSE",
                       .between_tuples = scene.format == Format::vrml1 ? "," : ""},
-                     options.own_fields, options.precision, sink),
+                     options.own_fields, options.precision, sink, diag),
         options_(options) {}
 
   void file() {
@@ -274,9 +274,9 @@ class VrmlWriter : TextDocument {
 
 }  // namespace
 
-void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics&) {
+void write_vrml(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag) {
   const auto faces = options.own_fields ? std::nullopt : with_form_faces(scene);
-  VrmlWriter(faces ? *faces : scene, options, sink).file();
+  VrmlWriter(faces ? *faces : scene, options, sink, diag).file();
 }
 
 }  // namespace wrlkit

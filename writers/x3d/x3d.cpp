@@ -25,7 +25,7 @@ class X3dWriter : TextDocument {
  public:
   X3dWriter(const Scene& scene, const TextOptions& options, const Sink& sink, Diagnostics& diag)
       : TextDocument(scene, {.dialect = Dialect::x3d, .yes = "true", .no = "false", .wraps_images = true},
-                     options.own_fields, options.precision, sink),
+                     options.own_fields, options.precision, sink, diag),
         options_(options),
         diag_(diag),
         version_(x3d_version(scene)) {}
