@@ -21,7 +21,6 @@ namespace {
 
 using TextWriter = void (*)(const Scene&, const TextOptions&, const Sink&, Diagnostics&);
 
-/// A file of this computer, from anywhere.
 /// What readers of VRML take for VRML.
 bool has_vrml_name(std::string_view url) {
   const auto name = url.substr(0, url.find('#'));

@@ -1,9 +1,11 @@
 // Fields of nodes as Python values, and back, with the types of the node table.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/text/nearest_name.h"
 #include "python/world.h"
+#include "scenegraph/equal.h"
 #include "scenegraph/verify.h"
 
 namespace wrlkit::python {
@@ -51,6 +53,26 @@ bool fits(const py::array& array, std::size_t arity) {
   return array.ndim() < 2 ? static_cast<std::size_t>(array.size()) % arity == 0 : last == arity;
 }
 
+/// 1.0000000000000004, as arithmetic gives it, is 1 where no more is allowed.
+double without_rounding(const FieldRange& range, double v) {
+  constexpr double little = 1e-9;
+  if (v > range.high && v <= range.high + little && !range.high_open) return range.high;
+  if (v < range.low && v >= range.low - little && !range.low_open) return range.low;
+  return v;
+}
+
+/// What the field does not hold yet. What it holds may be wrong already: files are.
+Value new_part(const PyNode& node, const Value& value) {
+  Scene& scene = node.scene();
+  const Value& before = scene.value(node.id, value.slot);
+  if (info(value.type).element != Element::node) return value;
+  const std::set<NodeId> old(before.node_span().begin(), before.node_span().end());
+  std::vector<NodeId> added;
+  std::ranges::copy_if(value.node_span(), std::back_inserter(added), [&](NodeId n) { return !old.contains(n); });
+  return info(value.type).multiple ? scene.make(value.type, value.slot, added)
+                                   : scene.make(value.type, value.slot, added.empty() ? NodeId{} : added[0]);
+}
+
 /// What a file would be warned of is an error of the program that sets it.
 void require_valid(const PyNode& node, const FieldDef& field, const Value& value) {
   if (!std::ranges::all_of(value.number_span(), [](double v) { return std::isfinite(v); }))
@@ -70,11 +92,15 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
   try {
     switch (t.element) {
       case Element::number: {
-        if (t.arity == 1 && !t.multiple) return scene.make(field.type, slot, value.cast<double>());
+        if (t.arity == 1 && !t.multiple)
+          return scene.make(field.type, slot, without_rounding(field.range, value.cast<double>()));
         const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
         if (!array || !fits(array, t.arity) || (!t.multiple && array.size() != t.arity)) throw wrong();
-        return scene.make(field.type, slot,
-                          std::span<const double>(array.data(), static_cast<std::size_t>(array.size())));
+        const std::span<const double> given(array.data(), static_cast<std::size_t>(array.size()));
+        if (!field.range.bounded()) return scene.make(field.type, slot, given);
+        std::vector<double> rounded(given.size());
+        std::ranges::transform(given, rounded.begin(), [&](double v) { return without_rounding(field.range, v); });
+        return scene.make(field.type, slot, rounded);
       }
       case Element::integer:
       case Element::image: {
@@ -124,7 +150,8 @@ void set_field(const PyNode& node, const std::string& name, const py::object& va
   const auto slot = slot_of(node, name);
   const auto& field = node.type().fields[slot];
   const Value made = from_python(node, field, slot, value);
-  require_valid(node, field, made);
+  if (field.range.bounded() && equal_plain(node.scene().value(node.id, slot), made)) return;
+  require_valid(node, field, new_part(node, made));
   node.scene().set(node.id, made);
 }
 

@@ -173,12 +173,14 @@ void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
   ConvertOptions options;
   set_options(options, given);
   Diagnostics faults(diag().shared_sources());
-  if (!verify(scene(), Level::authored, faults)) fail(path + ": the scene is not valid", views(faults));
   Saved saved;
+  bool is_valid = false;
   {
     py::gil_scoped_release others;
-    saved = wrlkit::save(copy(), path, options.save);
+    is_valid = verify(scene(), Level::authored, faults);
+    if (is_valid) saved = wrlkit::save(copy(), path, options.save);
   }
+  if (!is_valid) fail(path + ": the scene is not valid", views(faults));
   if (!saved) fail(path + ": it could not be written", views(diag()));
 }
 

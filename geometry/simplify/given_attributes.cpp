@@ -83,7 +83,10 @@ void GivenAttributes::give(Mesh& level) const {
   for (std::size_t i = 0; i < level.corners.size(); ++i) {
     const auto face = faces[i / 3];
     triangle = behind(face, i % 3, triangle);
-    if (triangle == ClosestPoint::no_guess) return;
+    if (triangle == ClosestPoint::no_guess) {
+      for (const auto a : lacking) to[a]->clear();
+      return;
+    }
     const auto at = closest_on_triangle(face[i % 3], surface_[triangle]).at;
     for (const auto a : lacking) append(*from[a], triangle, at, *to[a]);
     if (gives_normals) face_front(level, i, is_flat(part_, triangle) ? least_facing_of_flat : least_facing);

@@ -59,6 +59,7 @@ class Parser : private Values {
   /// A node statement among others, which may be written like the one before it.
   NodeId next_node(bool children, NodePattern& before);
   NodeId node_again(NodePattern&);
+  void forget_lists();
   bool read_again(const NodePattern&);
   bool is_for_others(std::string_view list) const { return lists_ && list.size() >= RepeatedLists::shortest; }
   NodePattern& begin_pattern();

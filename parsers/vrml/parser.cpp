@@ -57,7 +57,10 @@ void Parser::statements(Kind until) {
       diag_.report(Diag::unclosed, span(t), "{");
       return;
     }
-    if (statement(t)) continue;
+    if (statement(t)) {
+      before.forget();  // the same words may mean another thing now
+      continue;
+    }
     if (name_like(t)) {
       auto at = lex_.offset();
       const auto mark = misplaced_.size();
@@ -204,7 +207,10 @@ NodePattern& Parser::begin_pattern() {
 }
 
 NodeId Parser::next_node(bool children, NodePattern& before) {
-  if (NodeId n = node_again(before)) return n;
+  if (NodeId n = node_again(before)) {
+    forget_lists();
+    return n;
+  }
   const auto begin = lex_.peek().begin;
   const NodeId first{static_cast<std::uint32_t>(scene_.node_count())};
   const auto n_lists = lists_met_.size();
@@ -217,9 +223,13 @@ NodeId Parser::next_node(bool children, NodePattern& before) {
   const bool few = scene_.node_count() <= first.value + NodePattern::most_nodes;
   if (few && n == first && state() == state_before)
     before.learn(scene_, lex_.text(begin, lex_.offset()), base_ + begin, first, std::span(lists_met_).subspan(n_lists));
-  // What holds this node may be learnt with it, if it has no more nodes than that.
-  if (build_.depth() == 0 || scene_.node_count() > build_.current().value + NodePattern::most_nodes) lists_met_.clear();
+  forget_lists();
   return n;
+}
+
+/// What holds a node may be learnt with it, if it has no more nodes than that.
+void Parser::forget_lists() {
+  if (build_.depth() == 0 || scene_.node_count() > build_.current().value + NodePattern::most_nodes) lists_met_.clear();
 }
 
 NodeId Parser::node_again(NodePattern& pattern) {
@@ -235,6 +245,8 @@ NodeId Parser::node_again(NodePattern& pattern) {
     if (const auto& list = lists_again_[i]; is_for_others(list.text))
       values_again_[i] = lists_->add(list.text, list.type, list.slot, NodeId{list.node.value + first.value});
   pattern.make(scene_, base_ + begin, rest, lists_again_, values_again_);
+  for (const auto& list : lists_again_)
+    lists_met_.push_back({list.text, NodeId{list.node.value + first.value}, list.slot, list.type});
   lex_.seek(begin + length);
   if (part_read_) tell_part_read();
   return first;
@@ -529,7 +541,10 @@ void Parser::list_elements(Token opened, bool children) {
       expected("']'", t);
       return;
     }  // the bracket is missing
-    if (statement(t)) continue;
+    if (statement(t)) {
+      before.forget();  // the same words may mean another thing now
+      continue;
+    }
     if (name_like(t) && node_follows(t)) {
       if (text(t) == "NULL") diag_.report(Diag::null_repaired, span(t));
       const auto mark = misplaced_.size();

@@ -477,13 +477,13 @@ std::string why_missing(CombinedFormat format) {
 
 Outcome combine_lightmap(Scene& scene, const CombineLightmapOptions& options, PassContext& ctx) {
   if (!ctx.resources || !has_lightmaps(scene)) return Outcome::unchanged;
-  drop_dangling_links(scene);
+  const bool dropped = drop_dangling_links(scene).any;
   const auto outcome = Combining(scene, options, ctx).run();
   // What animated a Material that is part of the picture now.
   for (const Route& r : drop_dangling_links(scene).routes)
     ctx.diag.report(Diag::animation_baked, scene.where(r.to), scene.type(r.to).name,
                     r.event_in.starts_with("set_") ? r.event_in.substr(4) : r.event_in);
-  return outcome;
+  return dropped && outcome == Outcome::unchanged ? Outcome::changed : outcome;
 }
 
 }  // namespace wrlkit

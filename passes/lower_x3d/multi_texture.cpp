@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "base/stop.h"
 #include "light/render/texture.h"
 #include "passes/lower_x3d/texture_blend.h"
 #include "passes/lower_x3d/two_sides.h"
@@ -22,6 +23,7 @@ namespace k = nodes;
 namespace multi = nodes::multi_texture;
 
 constexpr int most_side = 4096;
+constexpr double most_samples = 1 << 26;  // of all pictures of one MultiTexture together
 constexpr std::size_t most_pictures = 16;
 
 /// A picture and where it lies.
@@ -42,7 +44,11 @@ Rgba pixel(const Image& image, int x, int y) {
 }
 
 /// The number of a pixel beside the border: on the other side, or the border itself.
-int wrapped(int i, int n, bool repeat) { return repeat ? ((i % n) + n) % n : std::clamp(i, 0, n - 1); }
+/// Places may be farther away than an int can say.
+int wrapped(double i, int n, bool repeat) {
+  const double within = repeat ? i - n * std::floor(i / n) : i;
+  return static_cast<int>(std::clamp(within, 0.0, n - 1.0));
+}
 
 /// Between the middles of the four pixels around the place.
 Rgba sample(const Sheet& sheet, double s, double t) {
@@ -54,8 +60,8 @@ Rgba sample(const Sheet& sheet, double s, double t) {
     const int dx = corner & 1, dy = corner >> 1;
     const double weight = (dx ? u : 1 - u) * (dy ? v : 1 - v);
     if (weight <= 0) continue;
-    const Rgba p = pixel(image, wrapped(static_cast<int>(left) + dx, image.width, sheet.repeat_s),
-                         wrapped(static_cast<int>(top) + dy, image.height, sheet.repeat_t));
+    const Rgba p =
+        pixel(image, wrapped(left + dx, image.width, sheet.repeat_s), wrapped(top + dy, image.height, sheet.repeat_t));
     for (std::size_t i = 0; i < 4; ++i) out[i] += weight * p[i];
   }
   return out;
@@ -232,7 +238,8 @@ class Combiner {
     const Rgba factor{color[0], color[1], color[2], scene_.get(n, multi::alpha)};
     Image out = shape;
     Blended all;
-    for (int y = 0; y < out.height; ++y)
+    for (int y = 0; y < out.height; ++y) {
+      check_stop();
       for (int x = 0; x < out.width; ++x) {
         const double s = (x + 0.5) / out.width, t = 1 - (y + 0.5) / out.height;
         all = {};
@@ -242,6 +249,7 @@ class Combiner {
         }
         for (const double v : all.value) out.pixels.push_back(static_cast<std::uint8_t>(std::lround(v * 255)));
       }
+    }
     if (!all.exact)
       ctx_.diag.report(Diag::drawn_otherwise, scene_.where(n), "MultiTexture",
                        "with light on all of its pictures together");
@@ -256,10 +264,11 @@ class Combiner {
       width = std::max({width, w * std::abs(onto[i].xx), h * std::abs(onto[i].yx)});
       height = std::max({height, w * std::abs(onto[i].xy), h * std::abs(onto[i].yy)});
     }
-    return {static_cast<int>(std::min<double>(width, most_side)),
-            static_cast<int>(std::min<double>(height, most_side)),
-            4,
-            {}};
+    width = std::min<double>(width, most_side);
+    height = std::min<double>(height, most_side);
+    const double too_many = width * height * static_cast<double>(sheets.size()) / most_samples;
+    const double shrink = too_many > 1 ? std::sqrt(too_many) : 1;
+    return {std::max(1, static_cast<int>(width / shrink)), std::max(1, static_cast<int>(height / shrink)), 4, {}};
   }
 
   Combined stored(NodeId n, Image image, const Sheet& base, bool lit) {

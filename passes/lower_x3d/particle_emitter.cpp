@@ -13,7 +13,7 @@ namespace wrlkit::x3d {
 namespace {
 
 namespace k = nodes;
-constexpr int most_tries = 64;  // for a point within a volume
+constexpr std::size_t most_tries = 64, most_tests = 16'384;  // for a point within a volume; of triangles
 
 Vec3 random_direction(RandomStream& random) {
   const double z = 2 * random.next() - 1, a = 2 * std::numbers::pi * random.next(), r = std::sqrt(1 - z * z);
@@ -163,7 +163,8 @@ bool ParticleEmitter::is_inside(const Vec3& p) const {
 
 /// A point of the volume; of the middle of the box where none is found.
 Vec3 ParticleEmitter::inside(RandomStream& random) const {
-  for (int i = 0; i < most_tries; ++i) {
+  const auto tries = std::clamp<std::size_t>(most_tests / std::max<std::size_t>(pieces_.size(), 1), 1, most_tries);
+  for (std::size_t i = 0; i < tries; ++i) {
     Vec3 p;
     for (std::size_t d = 0; d < 3; ++d) p[d] = low_[d] + (high_[d] - low_[d]) * random.next();
     if (is_inside(p)) return p;

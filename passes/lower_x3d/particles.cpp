@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stop.h"
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/particle_emitter.h"
 #include "scenegraph/any_node.h"
@@ -15,7 +16,7 @@ namespace {
 namespace k = nodes;
 namespace system_ = nodes::particle_system;
 
-constexpr std::int32_t most_particles = 10'000;
+constexpr std::int32_t most_particles = 10'000, most_in_all = 50'000;
 constexpr double moment = 1;  // seconds after the beginning
 
 struct Particle {
@@ -46,9 +47,9 @@ Forces forces_of(const Scene& scene, NodeId n) {
   return out;
 }
 
-std::vector<Particle> particles_of(const Scene& scene, NodeId n, const ParticleEmitter& emitter) {
+std::vector<Particle> particles_of(const Scene& scene, NodeId n, const ParticleEmitter& emitter, std::int32_t at_most) {
   const double life = scene.get(n, system_::particleLifetime), variation = scene.get(n, system_::lifetimeVariation);
-  const auto most = std::clamp(scene.get(n, system_::maxParticles), 0, most_particles);
+  const auto most = std::clamp(scene.get(n, system_::maxParticles), 0, at_most);
   if (!(life > 0) || !std::isfinite(life)) return {};
   const double now = std::min(moment, life / 2);
   const int count = emitter.is_explosion() ? most : static_cast<int>(std::ceil(std::min(1.0, now / life) * most));
@@ -235,16 +236,23 @@ class StillParticles {
 bool lower_particles(Scene& scene, PassContext& ctx) {
   if (!any_node(scene, [&](NodeId n) { return scene.is(n, nodes::ParticleSystem); })) return false;
   bool changed = false;
+  std::int32_t left = most_in_all;
   for (const NodeId n : all_nodes(scene)) {
+    check_stop();
     if (!scene.is(n, k::ParticleSystem) || !scene.get(n, system_::enabled) || !scene.get(n, system_::createParticles))
       continue;
     const ParticleEmitter emitter(scene, scene.get(n, system_::emitter), ctx);
+    changed = true;  // an emitter makes faces of its geometry
     if (!emitter.any()) continue;
-    auto particles = particles_of(scene, n, emitter);
+    const auto at_most = std::min(left, most_particles);
+    if (scene.get(n, system_::maxParticles) > at_most)
+      ctx.diag.report(Diag::expansion_limit, scene.where(n), at_most < most_particles ? most_in_all : most_particles,
+                      "particles");
+    auto particles = particles_of(scene, n, emitter, at_most);
+    left -= static_cast<std::int32_t>(particles.size());
     if (particles.empty()) continue;
     StillParticles(scene, n, std::move(particles)).make();
     ctx.diag.report(Diag::drawn_otherwise, scene.where(n), "ParticleSystem", "as it stands in its first second");
-    changed = true;
   }
   return changed;
 }

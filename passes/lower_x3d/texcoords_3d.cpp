@@ -2,6 +2,7 @@
 
 #include <map>
 #include <set>
+#include <utility>
 
 #include "base/math/matrix.h"
 #include "geometry/geometry.h"
@@ -60,37 +61,51 @@ class Flattener {
   Flattener(Scene& scene, PassContext& ctx) : scene_(scene), ctx_(ctx), driven_(driven_geometry(scene)) {}
 
   bool run() {
-    for (const NodeId n : all_nodes(scene_))
-      if (scene_.is(n, k::Shape)) shape(n);
+    const auto all = all_nodes(scene_);
+    for (const NodeId n : all) note(asked_of(n));
+    for (const NodeId n : all) shape(n, asked_of(n));
     for (const NodeId n : moved_) scene_.unset(n, k::appearance::textureTransform.slot);
     return changed_;
   }
 
  private:
-  void shape(NodeId n) {
+  /// What a Shape asks for; no geometry: nothing that can be done.
+  struct Asked {
+    NodeId geometry, look, transform;
+  };
+
+  Asked asked_of(NodeId n) const {
     namespace a = k::appearance;
-    const NodeId look = scene_.get(n, k::shape::appearance);
-    NodeId geometry = scene_.get(n, k::shape::geometry);
+    if (!scene_.is(n, k::Shape)) return {};
+    const NodeId look = scene_.get(n, k::shape::appearance), geometry = scene_.get(n, k::shape::geometry);
     const bool has_look = scene_.is(look, k::Appearance);
-    const NodeId asked = has_look ? scene_.get(look, a::textureTransform) : NodeId{},
-                 transform = is_transform(scene_, asked) ? asked : NodeId{};
+    if (!geometry || (has_look && is_deep(scene_.get(look, a::texture))) || is_driven(geometry)) return {};
+    const NodeId asked = has_look ? scene_.get(look, a::textureTransform) : NodeId{};
+    return {geometry, look, is_transform(scene_, asked) ? asked : NodeId{}};
+  }
+
+  /// Shapes that ask for different places of one geometry need copies of it.
+  void note(const Asked& asked) {
+    if (!asked.geometry) return;
+    const auto [first, is_new] = transform_of_.try_emplace(asked.geometry, asked.transform);
+    if (!is_new && first->second != asked.transform) several_.insert(asked.geometry);
+  }
+
+  void shape(NodeId n, const Asked& asked) {
+    if (!asked.geometry) return;
     const auto slot =
-        geometry && is_geometry(scene_, geometry) ? scene_.type(geometry).find("texCoord", Dialect::x3d) : std::nullopt;
-    if (!geometry || (has_look && is_deep(scene_.get(look, a::texture))) || is_driven(geometry)) return;
-    NodeId coord = slot ? scene_.value(geometry, *slot).node : NodeId{};
-    if (!transform && !has_depth(scene_, coord) && !done_.contains(geometry)) return;
-    if (const auto known = done_.find(geometry); known != done_.end() && known->second.transform != transform) {
-      geometry = original_of(geometry, known->second);
-      scene_.set(n, k::shape::geometry, geometry);
-      coord = slot ? scene_.value(geometry, *slot).node : NodeId{};
-    } else if (known != done_.end()) {
-      return;
+        is_geometry(scene_, asked.geometry) ? scene_.type(asked.geometry).find("texCoord", Dialect::x3d) : std::nullopt;
+    const auto [made, is_new] = made_.try_emplace({asked.geometry, asked.transform}, asked.geometry);
+    if (is_new) {
+      const NodeId coord = slot ? scene_.value(asked.geometry, *slot).node : NodeId{};
+      if (!asked.transform && !has_depth(scene_, coord)) return;
+      if (several_.contains(asked.geometry)) made->second = copy_of(asked.geometry);
+      const Matrix m = matrix_of_transform(scene_, asked.transform);
+      coord ? set_places(made->second, *slot, coord, m) : make_places(made->second, m);
+      changed_ = true;
     }
-    done_.try_emplace(geometry, Done{transform, scene_.type_id(geometry), scene_.copy_of_fields(geometry)});
-    if (transform) moved_.insert(look);
-    const Matrix m = matrix_of_transform(scene_, transform);
-    coord ? set_places(geometry, *slot, coord, m) : make_places(geometry, m);
-    changed_ = true;
+    if (asked.transform) moved_.insert(asked.look);
+    if (made->second != asked.geometry) scene_.set(n, k::shape::geometry, made->second);
   }
 
   /// A picture of three dimensions.
@@ -100,16 +115,9 @@ class Flattener {
   }
   bool is_driven(NodeId n) const { return n.value < driven_.size() && driven_[n.value]; }
 
-  /// What a geometry is, and was before its places were moved.
-  struct Done {
-    NodeId transform;
-    TypeId type;
-    std::vector<Value> fields;
-  };
-
-  NodeId original_of(NodeId geometry, const Done& before) {
-    const NodeId out = scene_.add(before.type, scene_.where(geometry));
-    scene_.set_fields(out, before.fields);
+  NodeId copy_of(NodeId geometry) {
+    const NodeId out = scene_.add(scene_.type_id(geometry), scene_.where(geometry));
+    scene_.set_fields(out, scene_.copy_of_fields(geometry));
     return out;
   }
 
@@ -143,8 +151,10 @@ class Flattener {
   Scene& scene_;
   PassContext& ctx_;
   std::vector<char> driven_;
-  std::map<NodeId, Done> done_;  // geometry
-  std::set<NodeId> moved_;       // Appearances
+  std::map<NodeId, NodeId> transform_of_;             // the first one of each geometry
+  std::set<NodeId> several_;                          // geometries with more than one
+  std::map<std::pair<NodeId, NodeId>, NodeId> made_;  // by geometry and transformation: the geometry to show
+  std::set<NodeId> moved_;                            // Appearances
   Mesh mesh_;
   MeshScratch scratch_;
   bool changed_ = false;

@@ -114,6 +114,27 @@ TEST_CASE("Nodes written alike: nodes in nodes, and lists without any") {
   check(nodes);
 }
 
+TEST_CASE("Nodes written alike: in one that is written alike itself, with long lists that are equal") {
+  std::vector<std::string> nodes;
+  const auto inner = shape(point(1, 40));
+  for (int i = 0; i < 8; ++i)
+    nodes.push_back("Transform { translation 1 2 3 children [ " + shape(point(i, 40)) + " " + inner + " " + inner +
+                    " ] }");
+  check(nodes);
+}
+
+TEST_CASE("Nodes written alike: a PROTO between them gives their words another meaning") {
+  const std::string proto =
+      "PROTO IndexedFaceSet [ field MFInt32 coordIndex [ ] field SFNode coord NULL ] { Box { } }\n";
+  const auto a = shape(point(1)), b = shape(point(2)), c = shape(point(3));
+  const auto read_again = read(a + b + proto + c, false), in_full = read(a + "\t" + b + proto + " " + c, false);
+  const auto type_of_last = [](const Read& r) {
+    return r.scene.type(r.scene.get(r.scene.main.roots.back(), nodes::shape::geometry)).kind;
+  };
+  CHECK(type_of_last(read_again) == NodeKind::proto);
+  CHECK(type_of_last(in_full) == NodeKind::proto);
+}
+
 TEST_CASE("Nodes written alike: USE means the last of its name") {
   const std::string look = "DEF Look Appearance { material Material { transparency ";
   std::vector<std::string> nodes;

@@ -80,7 +80,7 @@ class Builder {
   bool first_visit(NodeId, bool has_place = true);
   void report_overflow(NodeId);
   void report_texcoords(NodeId geometry);
-  void report_drawing(NodeId appearance, bool faces);
+  void report_drawing(NodeId appearance, Mode mode);
   void report_group(NodeId);
   void add_lost(NodeId);
   void report_lost();
@@ -149,7 +149,7 @@ void Builder::report_texcoords(NodeId geometry) {
 }
 
 /// How lines, points and hatches are drawn: glTF has only plain ones.
-void Builder::report_drawing(NodeId appearance, bool faces) {
+void Builder::report_drawing(NodeId appearance, Mode mode) {
   namespace a = nodes::appearance;
   if (!m_.scene.is(appearance, nodes::Appearance)) return;
   const auto report = [&](NodeId n, std::string_view field) {
@@ -158,14 +158,15 @@ void Builder::report_drawing(NodeId appearance, bool faces) {
   };
   const NodeId fill = m_.scene.get(appearance, a::fillProperties), line = m_.scene.get(appearance, a::lineProperties),
                point = m_.scene.get(appearance, a::pointProperties);
-  if (faces && m_.scene.is(fill, nodes::FillProperties) && m_.scene.get(fill, nodes::fill_properties::hatched))
+  if (mode == Mode::triangles && m_.scene.is(fill, nodes::FillProperties) &&
+      m_.scene.get(fill, nodes::fill_properties::hatched))
     report(fill, "hatchStyle");
-  if (faces) return;
-  if (m_.scene.is(line, nodes::LineProperties) && m_.scene.get(line, nodes::line_properties::applied)) {
+  if (mode == Mode::lines && m_.scene.is(line, nodes::LineProperties) &&
+      m_.scene.get(line, nodes::line_properties::applied)) {
     if (m_.scene.get(line, nodes::line_properties::linewidthScaleFactor) > 1) report(line, "linewidthScaleFactor");
     if (m_.scene.get(line, nodes::line_properties::linetype) > 1) report(line, "linetype");
   }
-  if (m_.scene.is(point, nodes::PointProperties) &&
+  if (mode == Mode::points && m_.scene.is(point, nodes::PointProperties) &&
       m_.scene.get(point, nodes::point_properties::pointSizeScaleFactor) != 1)
     report(point, "pointSizeScaleFactor");
 }
@@ -185,7 +186,7 @@ std::uint32_t Builder::shape(NodeId n) {
   m_.meshes.note_use(geometry, f.world);
   if (!is_aside()) f.box.unite(m_.meshes.bounds(g, f.world));
   if (g.origin != none) node.transform = d_.add_transform({.translation = m_.meshes.origins()[g.origin]});
-  report_drawing(appearance, g.surface().faces);
+  report_drawing(appearance, g.mode);
   auto material = m_.materials.get(appearance, g.surface());
   node.attachment = Attachment::mesh;
   node.attached = m_.meshes.mesh(geometry, material);
