@@ -11,13 +11,13 @@ bool ends_word(char c) {
 
 bool is_in_names(char c) { return !ends_word(c) && c != 0x7f && c != '\'' && c != '.' && c != '\\'; }
 
-}  // namespace
-
 bool is_keyword(std::string_view s) {
   constexpr std::string_view words[] = {"DEF", "EXTERNPROTO", "FALSE", "IS",      "NULL",     "PROTO",        "ROUTE",
                                         "TO",  "TRUE",        "USE",   "eventIn", "eventOut", "exposedField", "field"};
   return std::ranges::find(words, s) != std::end(words);
 }
+
+}  // namespace
 
 bool is_one_word(std::string_view name) { return std::ranges::none_of(name, ends_word); }
 

@@ -7,8 +7,6 @@ namespace wrlkit {
 
 /// Whether readers take the name as one word. Names such as `1pump` or `a.b` are not legal, but are read all the same.
 bool is_one_word(std::string_view name);
-/// Words of the grammar of VRML97: DEF, TRUE, NULL, ...
-bool is_keyword(std::string_view name);
 /// With '_' for blanks, brackets, quotes, commas and '#', which end a word.
 std::string as_one_word(std::string_view name);
 

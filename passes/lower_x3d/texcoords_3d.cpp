@@ -89,6 +89,7 @@ class Flattener {
     if (!asked.geometry) return;
     const auto [first, is_new] = transform_of_.try_emplace(asked.geometry, asked.transform);
     if (!is_new && first->second != asked.transform) several_.insert(asked.geometry);
+    if (!asked.transform) plain_.insert(asked.geometry);
   }
 
   void shape(NodeId n, const Asked& asked) {
@@ -97,10 +98,11 @@ class Flattener {
         is_geometry(scene_, asked.geometry) ? scene_.type(asked.geometry).find("texCoord", Dialect::x3d) : std::nullopt;
     const auto [made, is_new] = made_.try_emplace({asked.geometry, asked.transform}, asked.geometry);
     if (is_new) {
-      const NodeId coord = slot ? scene_.value(asked.geometry, *slot).node : NodeId{};
-      if (!asked.transform && !has_depth(scene_, coord)) return;
-      if (several_.contains(asked.geometry)) made->second = copy_of(asked.geometry);
+      const auto coord_of = [&](NodeId geometry) { return slot ? scene_.value(geometry, *slot).node : NodeId{}; };
+      if (!asked.transform && !has_depth(scene_, coord_of(asked.geometry))) return;
+      if (several_.contains(asked.geometry)) made->second = own_of(asked.geometry);
       const Matrix m = matrix_of_transform(scene_, asked.transform);
+      const NodeId coord = coord_of(made->second);
       coord ? set_places(made->second, *slot, coord, m) : make_places(made->second, m);
       changed_ = true;
     }
@@ -115,9 +117,19 @@ class Flattener {
   }
   bool is_driven(NodeId n) const { return n.value < driven_.size() && driven_[n.value]; }
 
-  NodeId copy_of(NodeId geometry) {
-    const NodeId out = scene_.add(scene_.type_id(geometry), scene_.where(geometry));
-    scene_.set_fields(out, scene_.copy_of_fields(geometry));
+  /// What a geometry was before its places were moved.
+  struct Before {
+    TypeId type;
+    std::vector<Value> fields;
+  };
+
+  /// Itself for the first transformation, unless some Shape shows it as it is; then copies of what it was.
+  NodeId own_of(NodeId geometry) {
+    const auto [before, is_first] =
+        before_.try_emplace(geometry, Before{scene_.type_id(geometry), scene_.copy_of_fields(geometry)});
+    if (is_first && !plain_.contains(geometry)) return geometry;
+    const NodeId out = scene_.add(before->second.type, scene_.where(geometry));
+    scene_.set_fields(out, before->second.fields);
     return out;
   }
 
@@ -151,7 +163,9 @@ class Flattener {
   Scene& scene_;
   PassContext& ctx_;
   std::vector<char> driven_;
-  std::map<NodeId, NodeId> transform_of_;             // the first one of each geometry
+  std::map<NodeId, NodeId> transform_of_;  // the first one of each geometry
+  std::set<NodeId> plain_;                 // that a Shape shows without one
+  std::map<NodeId, Before> before_;
   std::set<NodeId> several_;                          // geometries with more than one
   std::map<std::pair<NodeId, NodeId>, NodeId> made_;  // by geometry and transformation: the geometry to show
   std::set<NodeId> moved_;                            // Appearances

@@ -116,7 +116,7 @@ TEST_CASE("Nodes written alike: nodes in nodes, and lists without any") {
 
 TEST_CASE("Nodes written alike: in one that is written alike itself, with long lists that are equal") {
   std::vector<std::string> nodes;
-  const auto inner = shape(point(1, 40));
+  const auto inner = shape(point(1, 6));
   for (int i = 0; i < 8; ++i)
     nodes.push_back("Transform { translation 1 2 3 children [ " + shape(point(i, 40)) + " " + inner + " " + inner +
                     " ] }");

@@ -105,7 +105,7 @@ class Names {
       }
       if (auto name = scene_.name(n); !name.empty()) {
         last_[name] = n;
-        if (!is_one_word(name) || is_keyword(name)) repair(n, name);
+        if (!is_one_word(name)) repair(n, name);
       }
       auto mark = stack.size();
       for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
