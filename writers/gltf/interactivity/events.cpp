@@ -174,7 +174,7 @@ void Events::collect() {
 /// A ROUTE of the file, not one that stands for what a Script sets.
 bool Events::is_of_scene(const Route& r) const {
   const auto& all = scene_.main.routes;
-  const std::less<const Route*> before;
+  const std::less<> before;
   return !before(&r, all.data()) && before(&r, all.data() + all.size());
 }
 
