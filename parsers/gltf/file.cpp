@@ -65,6 +65,10 @@ bool File::read() {
     return false;
   }
   const Json asset = root_["asset"];
+  if (root_["geometricError"] && root_["root"]) {
+    diag_.report(Diag::unknown_format, where(root_), "it is a 3D Tiles set; 'wrlkit view' shows it");
+    return false;
+  }
   if (auto version = asset["version"].text(); !version.starts_with("2.")) {
     diag_.report(version.empty() ? Diag::gltf_no_asset : Diag::gltf_version, where(asset ? asset : root_), version);
     return false;

@@ -9,6 +9,7 @@ namespace wrlkit {
 struct GalleryWorld {
   std::string name, link;  // link: a reference to the file, relative to the page
   std::string picture;     // JPEG as base64; empty: none could be drawn
+  std::string no_picture;  // why the picture could not be stored; empty: it could
   std::string fault;       // why it could not be read; empty: it could
   std::uint64_t triangles = 0, parts = 0, bytes = 0;
   std::size_t errors = 0, warnings = 0, lost = 0;

@@ -1,6 +1,7 @@
 // wrlkit render: a picture of a scene; of a scene from all sides; of two scenes and how they differ; of many scenes.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/image/image_animation.h"
@@ -127,6 +128,8 @@ bool is_usable(const Flags& f, bool sheet) {
   }
   if (sheet + !f.compare.empty() + (f.turntable > 0) > 1)
     return fault("several worlds, --compare or --turntable, one of them");
+  if (const auto& l = f.look_at; l.size() == 9 && std::equal(l.begin(), l.begin() + 3, l.begin() + 3))
+    return fault("--look-at: eye and target are the same point");
   if (f.turntable > 0 && f.output == "-") return fault("--turntable: pictures in a series need a name");
   return true;
 }

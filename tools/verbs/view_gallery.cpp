@@ -66,7 +66,10 @@ void add_picture(const Flags& flags, GalleryWorld& out) {
   if (meshes) {
     const RenderOptions options{.width = width, .height = height, .samples = 2};
     const auto picture = render(s.world().scene, meshes, options, &s.resources(), s.diag());
-    if (const auto bytes = encode_jpeg(picture, quality, why)) out.picture = base64(*bytes);
+    if (const auto bytes = encode_jpeg(picture, quality, why))
+      out.picture = base64(*bytes);
+    else
+      out.no_picture = why;
   } else {
     out.fault = first_error(s.diag());
   }
@@ -122,10 +125,17 @@ Gallery gallery_of(Session& s, const std::vector<NamedWorld>& worlds) {
   return out;
 }
 
+/// The first whose picture could not be stored, as where the codecs are not installed.
+std::vector<GalleryWorld>::const_iterator without_picture(const Gallery& g) {
+  return std::ranges::find_if(g.worlds, [](const GalleryWorld& w) { return !w.no_picture.empty(); });
+}
+
 /// What the page says, too.
 void print_faults(const Gallery& g) {
   for (const auto& w : g.worlds)
     if (!w.fault.empty()) fmt::print(stderr, "wrlkit view: {}: {}\n", w.name, w.fault);
+  if (const auto blank = without_picture(g); blank != g.worlds.end())
+    fmt::print(stderr, "wrlkit view: there are no pictures: {}\n", blank->no_picture);
   if (g.n_left_out > 0)
     fmt::print(stderr, "wrlkit view: {} more worlds are left out; --limit {} takes them all\n", g.n_left_out,
                g.n_left_out + g.worlds.size());
@@ -135,7 +145,7 @@ int exit_code_of(const Gallery& g) {
   const auto faults = std::ranges::count_if(g.worlds, [](const GalleryWorld& w) { return !w.fault.empty(); });
   if (faults == std::ssize(g.worlds)) return nothing;
   const bool wrong = std::ranges::any_of(g.worlds, [](const GalleryWorld& w) { return w.errors > 0; });
-  return wrong || g.n_left_out > 0 ? partly : done;
+  return wrong || g.n_left_out > 0 || without_picture(g) != g.worlds.end() ? partly : done;
 }
 
 }  // namespace
