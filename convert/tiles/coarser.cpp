@@ -109,9 +109,12 @@ class Coarser {
     std::vector<std::size_t> out;
     for (std::size_t k = 0; k < counts.size(); ++k) {
       const auto last = k + 1 < counts.size() ? counts[k + 1] : counts[k];
-      for (auto count = counts[k]; count >= last && count > 0;) {
+      if (counts[k] == 0) continue;
+      out.push_back(counts[k]);  // less than the next where that draws more lines
+      for (;;) {
+        const auto count = std::min(out.back() - 1, static_cast<std::size_t>(step * static_cast<double>(out.back())));
+        if (count < last || count == 0) break;
         out.push_back(count);
-        count = std::min(count - 1, static_cast<std::size_t>(step * static_cast<double>(count)));
       }
     }
     return out;
