@@ -1,6 +1,7 @@
 #include "convert/tiles/coarser.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/parallel.h"
 #include "base/silent_task.h"
@@ -55,10 +56,7 @@ class Coarser {
     if (world.points().empty())
       read_levels(SimplifiedWorld(scene_, {.counts = of_surfaces}, silent_), of_surfaces, levels, out);
     else
-      for (std::size_t k = 0; k < levels.size(); ++k) {
-        const auto first = first_point(world.points(), of_surfaces[k]);
-        read(world.scene_at(points_of(world, first, levels[k], out[k], most)), levels[k], out[k]);
-      }
+      read_world(world, of_surfaces, levels, most, out);
     for (auto& level : out) std::ranges::sort(level, {}, &Coarse::from);
     return out;
   }
@@ -130,12 +128,16 @@ class Coarser {
   std::vector<std::uint32_t> points_of(const WorldLevels& world, std::uint32_t first, const CoarseLevel& level,
                                        std::span<const Coarse> lines, std::size_t most) const {
     std::vector<std::uint32_t> out(scene_.node_count(), WorldLevels::as_it_was);
+    std::vector<std::size_t> lines_before(pieces_.size() + 1);  // what those of the pieces before draw
+    for (const auto& line : lines) lines_before[line.from + 1] = n_drawn(line.mesh);
+    std::partial_sum(lines_before.begin(), lines_before.end(), lines_before.begin());
     auto open = level.cells;
     for (auto point = first; !open.empty(); ++point) {
       const auto faces = world.faces_at(point);
       const bool is_last = point + 1 == world.points().size();
       std::erase_if(open, [&](const PieceRange& cell) {
-        if (!is_last && drawn_in(cell, faces, lines) > most) return false;
+        if (!is_last && drawn_in(cell, faces) + lines_before[cell.second] - lines_before[cell.first] > most)
+          return false;
         for (auto i = cell.first; i < cell.second; ++i)
           if (geometry_[i]) out[geometry_[i].value] = point;
         return true;
@@ -144,41 +146,60 @@ class Coarser {
     return out;
   }
 
-  std::size_t drawn_in(const PieceRange& cell, std::span<const std::size_t> faces,
-                       std::span<const Coarse> lines) const {
+  std::size_t drawn_in(const PieceRange& cell, std::span<const std::size_t> faces) const {
     std::size_t out = 0;
     for (auto i = cell.first; i < cell.second; ++i)
       if (geometry_[i]) out += faces[geometry_[i].value];
-    for (const auto& line : lines)
-      if (line.from >= cell.first && line.from < cell.second) out += n_drawn(line.mesh);
     return out;
+  }
+
+  /// Each cell of a level at its point.
+  void read_world(const WorldLevels& world, std::span<const std::size_t> counts, std::span<const CoarseLevel> levels,
+                  std::size_t most, std::vector<std::vector<Coarse>>& out) {
+    std::vector<std::vector<std::uint32_t>> points;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const auto first = first_point(world.points(), counts[k]);
+      points.push_back(points_of(world, first, levels[k], out[k], most));
+    }
+    std::vector<std::vector<char>> is_known(levels.size(), std::vector<char>(scene_.node_count()));
+    std::vector<std::uint32_t> piece_of(scene_.node_count());
+    for (std::uint32_t i = 0; i < pieces_.size(); ++i)
+      if (geometry_[i]) piece_of[geometry_[i].value] = i;
+    world.for_each_mesh(points, [&](std::size_t k, NodeId geometry, Mesh mesh) {
+      is_known[k][geometry.value] = 1;
+      add(piece_of[geometry.value], std::move(mesh), out[k]);
+    });
+    for (std::size_t k = 0; k < levels.size(); ++k) read(scene_, levels[k], is_known[k], out[k]);
   }
 
   /// Of a single part. For each level the first point that draws no more, or the last; the scene itself where there is
   /// none.
   void read_levels(const SimplifiedWorld& world, std::span<const std::size_t> counts,
                    std::span<const CoarseLevel> levels, std::vector<std::vector<Coarse>>& out) {
+    const std::vector<char> none(scene_.node_count());
     for (std::size_t k = 0; k < levels.size(); ++k) {
       std::size_t at = 0;
       while (at + 1 < world.n_points() && world.point(at).n_faces > counts[k]) ++at;
-      read(world.n_points() > 0 ? world.scene_at(at) : scene_, levels[k], out[k]);
+      read(world.n_points() > 0 ? world.scene_at(at) : scene_, levels[k], none, out[k]);
     }
   }
 
-  /// Pieces that have left are in no Shape any more.
-  void read(const Scene& scene, const CoarseLevel& level, std::vector<Coarse>& out) {
-    std::vector<char> shown(scene.node_count());
-    for (const NodeId shape : scene.main.roots)
-      if (const NodeId geometry = scene.get(shape, nodes::shape::geometry)) shown[geometry.value] = 1;
+  /// What is left of a piece, if anything is, back in its place.
+  void add(std::uint32_t piece, Mesh mesh, std::vector<Coarse>& to) const {
+    if (mesh.corners.empty()) return;
+    simplify::transform(mesh, translation_matrix(box_.centre()));
+    to.push_back({piece, std::move(mesh)});
+  }
+
+  /// The pieces of a level as they are in the scene, but for those of which it is known what is left.
+  void read(const Scene& scene, const CoarseLevel& level, std::span<const char> is_known, std::vector<Coarse>& out) {
     SurfaceReader reader(scene, silent_);
     for (const auto& [begin, end] : level.cells)
       for (auto i = begin; i < end; ++i) {
-        if (!geometry_[i] || !shown[geometry_[i].value]) continue;
-        Coarse left{i, {}};
-        reader.read({geometry_[i], {}}, left.mesh);
-        if (left.mesh.corners.empty()) continue;
-        simplify::transform(left.mesh, translation_matrix(box_.centre()));
-        out.push_back(std::move(left));
+        if (!geometry_[i] || is_known[geometry_[i].value]) continue;
+        Mesh mesh;
+        reader.read({geometry_[i], {}}, mesh);
+        add(i, std::move(mesh), out);
       }
   }
 

@@ -8,6 +8,7 @@
 #include "base/math/saturating.h"
 #include "base/parallel.h"
 #include "geometry/geometry.h"
+#include "geometry/simplify/level_meshes.h"
 #include "geometry/simplify/world_parts.h"
 #include "scenegraph/nodes.h"
 
@@ -27,9 +28,21 @@ struct WorldLevels::Impl {
   std::size_t left_for_parts(std::size_t count) const;
   double error(const simplify::PlacedSurface& s, std::size_t point) const;
   using UseMesh = std::function<void(std::size_t surface, std::size_t point, Mesh mesh)>;
-  using SurfaceAtPoint = std::pair<std::size_t, std::size_t>;
-  void make_meshes(std::span<const SurfaceAtPoint> wanted, const UseMesh& use) const;
+  /// A surface, and points at which it is to be made.
+  struct Wanted {
+    std::size_t surface;
+    std::vector<std::size_t> points;
+  };
+  void make_meshes(std::span<const Wanted> wanted, const UseMesh& use) const;
+  /// Where each surface is another one than at the point before; at the first, than that of the scene.
+  std::vector<Wanted> changed() const;
   void for_each_changed(const UseMesh& use) const;
+  struct Kept {
+    std::size_t surface, point;
+    Mesh mesh;
+  };
+  std::vector<Kept> kept{};  // all that have changed, once a scene has been asked for: others will be
+  void keep();
 };
 
 /// Triangles of the parts where the world is to have `count`. What stays as it is can be most of them: to make up for
@@ -64,26 +77,43 @@ double WorldLevels::Impl::error(const simplify::PlacedSurface& s, std::size_t po
 }
 
 /// In order, while the threads make some at a time.
-void WorldLevels::Impl::make_meshes(std::span<const SurfaceAtPoint> wanted, const UseMesh& use) const {
+void WorldLevels::Impl::make_meshes(std::span<const Wanted> wanted, const UseMesh& use) const {
   constexpr std::size_t at_once = 256;
   for (std::size_t first = 0; first < wanted.size(); first += at_once) {
     const auto some = wanted.subspan(first, std::min(at_once, wanted.size() - first));
-    std::vector<Mesh> meshes(some.size());
+    std::vector<std::vector<Mesh>> meshes(some.size());
     parallel_for(some.size(), [&](std::size_t i) {
-      meshes[i] = world.mesh_at(world.surfaces[some[i].first], rungs[some[i].second]);
+      std::vector<std::reference_wrapper<const simplify::Rungs>> at;
+      for (const auto point : some[i].points) at.emplace_back(rungs[point]);
+      meshes[i] = simplify::level_meshes(world, world.surfaces[some[i].surface], at);
     });
-    for (std::size_t i = 0; i < some.size(); ++i) use(some[i].first, some[i].second, std::move(meshes[i]));
+    for (std::size_t i = 0; i < some.size(); ++i)
+      for (std::size_t k = 0; k < meshes[i].size(); ++k)
+        use(some[i].surface, some[i].points[k], std::move(meshes[i][k]));
   }
 }
 
-/// The mesh of each surface at each point, where it is another one than at the one before; at the first, than that of
-/// the scene.
-void WorldLevels::Impl::for_each_changed(const UseMesh& use) const {
-  std::vector<SurfaceAtPoint> changed;
-  for (std::size_t i = 0; i < world.surfaces.size(); ++i)
+std::vector<WorldLevels::Impl::Wanted> WorldLevels::Impl::changed() const {
+  std::vector<Wanted> out;
+  for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
+    Wanted wanted{i, {}};
     for (std::size_t k = 0; k < rungs.size(); ++k)
-      if (world.is_changed(world.surfaces[i], rungs[k], k > 0 ? &rungs[k - 1] : nullptr)) changed.emplace_back(i, k);
-  make_meshes(changed, use);
+      if (world.is_changed(world.surfaces[i], rungs[k], k > 0 ? &rungs[k - 1] : nullptr)) wanted.points.push_back(k);
+    if (!wanted.points.empty()) out.push_back(std::move(wanted));
+  }
+  return out;
+}
+
+void WorldLevels::Impl::for_each_changed(const UseMesh& use) const {
+  if (kept.empty()) return make_meshes(changed(), use);
+  for (const auto& m : kept) use(m.surface, m.point, m.mesh);
+}
+
+void WorldLevels::Impl::keep() {
+  if (!kept.empty()) return;
+  make_meshes(changed(), [&](std::size_t surface, std::size_t point, Mesh mesh) {
+    kept.push_back({surface, point, std::move(mesh)});
+  });
 }
 
 WorldLevels::WorldLevels(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
@@ -116,25 +146,39 @@ void WorldLevels::report_missed(Diagnostics& diag) const {
 }
 
 Scene WorldLevels::scene_at(std::size_t i) const {
-  return scene_at(std::vector(impl_->scene.node_count(), static_cast<std::uint32_t>(i)));
+  impl_->keep();
+  Scene out = impl_->scene;
+  const auto& kept = impl_->kept;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    const bool is_last = k + 1 == kept.size() || kept[k + 1].surface != kept[k].surface || kept[k + 1].point > i;
+    if (kept[k].point > i || !is_last) continue;
+    const auto& surface = impl_->world.surfaces[kept[k].surface].surface;
+    if (!kept[k].mesh.corners.empty())
+      store_mesh(out, surface.geometry, kept[k].mesh);
+    else
+      for (const NodeId shape : surface.shapes) out.unset(shape, nodes::shape::geometry.slot);
+  }
+  return out;
 }
 
-Scene WorldLevels::scene_at(std::span<const std::uint32_t> points) const {
-  Scene out = impl_->scene;
+void WorldLevels::for_each_mesh(std::span<const std::vector<std::uint32_t>> levels, const UseMesh& use) const {
   const auto& world = impl_->world;
-  std::vector<Impl::SurfaceAtPoint> changed;
+  std::vector<Impl::Wanted> wanted;
+  std::vector<std::size_t> level_of;  // of each mesh, in order
   for (std::size_t i = 0; i < world.surfaces.size(); ++i) {
-    const auto point = points[world.surfaces[i].surface.geometry.value];
-    if (point != as_it_was && world.is_changed(world.surfaces[i], impl_->rungs[point])) changed.emplace_back(i, point);
+    Impl::Wanted of_surface{i, {}};
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const auto point = levels[k][world.surfaces[i].surface.geometry.value];
+      if (point == as_it_was || !world.is_changed(world.surfaces[i], impl_->rungs[point])) continue;
+      of_surface.points.push_back(point);
+      level_of.push_back(k);
+    }
+    if (!of_surface.points.empty()) wanted.push_back(std::move(of_surface));
   }
-  impl_->make_meshes(changed, [&](std::size_t n, std::size_t, const Mesh& mesh) {
-    const auto& surface = world.surfaces[n].surface;
-    if (!mesh.corners.empty())
-      store_mesh(out, surface.geometry, mesh);
-    else
-      for (NodeId shape : surface.shapes) out.unset(shape, nodes::shape::geometry.slot);
+  auto level = level_of.begin();
+  impl_->make_meshes(wanted, [&](std::size_t surface, std::size_t, Mesh mesh) {
+    use(*level++, world.surfaces[surface].surface.geometry, std::move(mesh));
   });
-  return out;
 }
 
 std::vector<std::size_t> WorldLevels::faces_at(std::size_t i) const {

@@ -1,5 +1,6 @@
 // A whole scene at falling numbers of triangles that are drawn: one budget for all of its parts.
 #pragma once
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -37,10 +38,13 @@ class WorldLevels {
   const std::vector<Point>& points() const;
   /// Reports not-simplified, with the causes, where what stays as it is keeps a number of triangles from being reached.
   void report_missed(Diagnostics& diag) const;
+  /// The first call makes the meshes of all points, which are kept; not for several threads at a time.
   Scene scene_at(std::size_t i) const;
   static constexpr std::uint32_t as_it_was = 0xffffffffu;
-  /// With each surface at a point of its own, by the number of its geometry node, or as it was.
-  Scene scene_at(std::span<const std::uint32_t> points) const;
+  using UseMesh = std::function<void(std::size_t level, NodeId geometry, Mesh mesh)>;
+  /// Levels with each surface at a point of its own, by the number of its geometry node, or as it was. Gives the mesh
+  /// of each surface that is not as it was, ordered by surface and then by level; without corners where it is gone.
+  void for_each_mesh(std::span<const std::vector<std::uint32_t>> levels, const UseMesh& use) const;
   /// Triangles that are left of each surface, once, by the number of its geometry node.
   std::vector<std::size_t> faces_at(std::size_t i) const;
   /// With LOD nodes that have the points as levels.

@@ -11,9 +11,7 @@
 #include "base/math/saturating.h"
 #include "base/math/vec.h"
 #include "base/parallel.h"
-#include "geometry/normals.h"
 #include "geometry/simplify/closest_on_triangle.h"
-#include "geometry/simplify/given_attributes.h"
 #include "geometry/simplify/like_form.h"
 #include "geometry/simplify/pieces.h"
 #include "geometry/simplify/shared_borders.h"
@@ -82,14 +80,6 @@ std::vector<std::vector<std::uint32_t>> one_piece(const Mesh& mesh) {
   std::vector<std::uint32_t> faces(mesh.n_faces());
   std::iota(faces.begin(), faces.end(), 0u);
   return {std::move(faces)};
-}
-
-/// What a level looks like is what the surface looked like: its own normals, or those by its crease angle.
-Mesh with_normals(const Mesh& mesh) {
-  Mesh out = mesh;
-  MeshScratch scratch;
-  if (!out.normal.present()) make_normals(out, scratch, out.crease_angle);
-  return out;
 }
 
 /// Leaves out what is not the same in both scenes.
@@ -441,35 +431,6 @@ bool WorldParts::is_changed(const PlacedSurface& s, const std::vector<std::uint3
   for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i)
     if (rungs[i] != (before ? (*before)[i] : 0)) return true;
   return false;
-}
-
-Mesh WorldParts::mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const {
-  Mesh out;
-  out.kind = Mesh::Kind::faces;
-  std::vector<std::uint32_t> original;
-  bool loose = false;
-  const Mesh shaded = with_normals(s.mesh);
-  for (std::uint32_t i = s.first_part; i < s.first_part + s.n_parts; ++i) {
-    if (rungs[i] == Allocation::gone) continue;
-    const auto& rung = (*allocated[i].rungs)[rungs[i]];
-    loose |= rung.loose;
-    const Mesh part = piece_of(shaded, parts[i].faces, original);
-    if (rungs[i] == 0) {
-      append(out, part);
-      continue;
-    }
-    Mesh piece = rung.mesh;
-    piece.ccw = part.ccw;
-    transform(piece, parts[i].from_ladder);
-    GivenAttributes(part).give(piece);
-    append(out, piece);
-  }
-  out.ccw = s.mesh.ccw;
-  out.solid = s.mesh.solid && !loose;
-  out.convex = true;
-  out.crease_angle = s.mesh.crease_angle;
-  shorten_normals(out);
-  return out;
 }
 
 }  // namespace wrlkit::simplify

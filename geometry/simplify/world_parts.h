@@ -56,8 +56,6 @@ class WorldParts {
   std::vector<AllocatedPart> allocated;  // of each part
   Neighbours neighbours;
 
-  /// A surface with its parts on these rungs.
-  Mesh mesh_at(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs) const;
   /// Against other rungs; without any, against the surface as it was.
   bool is_changed(const PlacedSurface& s, const std::vector<std::uint32_t>& rungs,
                   const std::vector<std::uint32_t>* before = nullptr) const;
