@@ -15,6 +15,7 @@ constexpr double least_rms = 1e-6;  // of the root of the area
 constexpr std::size_t asked_at_once = 64;   // parts
 constexpr std::size_t chunk = 128;          // samples that are asked one after another
 constexpr std::uint32_t most_orphans = 64;  // of a part
+constexpr std::size_t small_rest = 100;     // of the triangles, that are not given back
 constexpr double growth = 1.1;              // of the root of the mean square, after which all is priced again
 
 }  // namespace
@@ -243,7 +244,63 @@ void Allocation::take(const Step& step) {
   at_[step.part] = step.to;
 }
 
+/// The step up from where a part stands that is worth most to each triangle, of those that can be had.
+std::optional<Allocation::Raise> Allocation::raise_of(std::uint32_t part, std::uint32_t highest,
+                                                      std::size_t n_spare) const {
+  const auto& p = parts_[part];
+  const auto& now = stops_[part][at_[part]];
+  std::optional<Raise> best;
+  for (auto rung = now.rung; rung-- > highest;) {
+    const auto cost = p.n_places * ((*p.rungs)[rung].n_faces - (*p.rungs)[now.rung].n_faces);
+    if (cost > n_spare) break;
+    if (cost == 0) continue;
+    const double squares = now.price.squares - stop_at(part, rung).price.squares;
+    const double gain = key_of(squares / static_cast<double>(cost), now.price.peak);
+    if (gain > (best ? best->gain : 0)) best = {gain, part, rung};
+  }
+  return best;
+}
+
+void Allocation::give_back(std::size_t n_spare, const std::vector<std::uint32_t>& highest) {
+  std::priority_queue<Raise> raises;
+  const auto look_at = [&](std::uint32_t part) {
+    if (at_[part] == gone || stops_[part][at_[part]].rung == highest[part]) return;
+    if (const auto raise = raise_of(part, highest[part], n_spare)) raises.push(*raise);
+  };
+  for (std::uint32_t i = 0; i < parts_.size(); ++i) look_at(i);
+  bool has_raised = false;
+  while (!raises.empty()) {
+    const auto raise = raises.top();
+    raises.pop();
+    const auto now = raise_of(raise.part, highest[raise.part], n_spare);  // others have been raised since
+    if (!now) continue;
+    if (now->gain < raise.gain) {
+      raises.push(*now);
+      continue;
+    }
+    const auto before = n_drawn_;
+    const auto n_stops = stops_[now->part].size();
+    const auto to = stop_of(now->part, now->rung);
+    if (stops_[now->part].size() > n_stops) ++at_[now->part];
+    take({0, now->part, to});
+    n_spare -= n_drawn_ - before;
+    has_raised = true;
+    look_at(now->part);
+  }
+  if (!has_raised) return;
+  const auto all = maxima();
+  max_ = *std::ranges::max_element(all);
+  price_all();
+}
+
 bool Allocation::run_to(std::size_t n_drawn) {
+  const auto before = rungs();
+  const bool is_reached = step_down_to(n_drawn);
+  if (is_reached && n_drawn - n_drawn_ > n_drawn / small_rest) give_back(n_drawn - n_drawn_, before);
+  return is_reached;
+}
+
+bool Allocation::step_down_to(std::size_t n_drawn) {
   while (n_drawn_ > n_drawn) {
     if (rms() > growth * priced_at_) price_all();
     if (queue_.empty()) return false;

@@ -1,6 +1,7 @@
 // Where the triangles of a scene go: which rung of its ladder each part stands on, so that the distortion of all is
 // least for a number of triangles (Shoham, Gersho: Efficient Bit Allocation for an Arbitrary Set of Quantizers, 1988).
 #pragma once
+#include <optional>
 #include <queue>
 #include <vector>
 
@@ -41,7 +42,8 @@ class Allocation {
   /// `parts` and `neighbours` must outlive this; what leaves is taken from them. `area` is that of the world.
   Allocation(std::vector<AllocatedPart>& parts, Neighbours& neighbours, double area);
 
-  /// Steps down until at most that many triangles are drawn. False when nothing is left to be taken.
+  /// Steps down until at most that many triangles are drawn; then up again with what is left of them, to no higher
+  /// rungs than before. False when nothing is left to be taken.
   bool run_to(std::size_t n_drawn);
 
   std::size_t n_drawn() const { return n_drawn_; }
@@ -83,9 +85,18 @@ class Allocation {
   double squared_of(const LeavingSample& s) const;
   void attach(std::uint32_t part, const LeavingSample& s);
   std::uint32_t stop_of(std::uint32_t part, std::uint32_t rung);
+  bool step_down_to(std::size_t n_drawn);
   Step last_step(const Step& step, std::size_t n_drawn);
   void take(const Step& step);
   void leave(std::uint32_t part);
+  /// A step up, and how much less each triangle costs then.
+  struct Raise {
+    double gain;
+    std::uint32_t part, rung;
+    bool operator<(const Raise& o) const { return gain != o.gain ? gain < o.gain : part > o.part; }
+  };
+  std::optional<Raise> raise_of(std::uint32_t part, std::uint32_t highest, std::size_t n_spare) const;
+  void give_back(std::size_t n_spare, const std::vector<std::uint32_t>& highest);
 
   std::vector<AllocatedPart>& parts_;
   Neighbours& neighbours_;

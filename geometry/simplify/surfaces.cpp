@@ -1,6 +1,7 @@
 #include "geometry/simplify/surfaces.h"
 
 #include <algorithm>
+#include <span>
 
 #include "geometry/geometry.h"
 #include "geometry/simplify/collapse.h"
@@ -18,7 +19,7 @@ class SurfaceSearch {
 
   std::vector<ShapeSurface> run() {
     keep_routed();
-    if (below_ == BelowLod::leave) keep_below_levels();
+    if (below_ != BelowLod::take) keep_below_levels();
     std::vector<ShapeSurface> out;
     constexpr std::uint32_t none = 0xffffffff;
     std::vector<std::uint32_t> number(scene_.node_count(), none);
@@ -48,8 +49,15 @@ class SurfaceSearch {
   void keep_below_levels() {
     std::vector<NodeId> levels;
     for (NodeId n : order_)
-      if (scene_.is(n, nodes::LOD)) for_each_child(scene_, n, [&](NodeId c) { levels.push_back(c); });
+      if (scene_.is(n, nodes::LOD) && (below_ == BelowLod::leave || has_coarser_level(n)))
+        for_each_child(scene_, n, [&](NodeId c) { levels.push_back(c); });
     for (NodeId n : reachable(scene_, levels)) kept_[n.value] = Kept::has_levels;
+  }
+
+  bool has_coarser_level(NodeId lod) const {
+    const auto& levels = scene_.get(lod, nodes::lod::children);
+    const auto draws = [&](NodeId n) { return scene_.is(n, nodes::Shape) || scene_.type(n).kind != NodeKind::builtin; };
+    return levels.size() > 1 && std::ranges::any_of(reachable(scene_, std::span(levels).subspan(1)), draws);
   }
 
   bool has_is(NodeId n) const {

@@ -13,8 +13,9 @@ struct ShapeSurface {
   std::vector<NodeId> shapes;
 };
 
-/// What becomes of Shapes below a LOD, which have their levels already.
-enum class BelowLod : std::uint8_t { leave, take };
+/// What becomes of Shapes below a LOD, which have their levels already: those of any LOD are left out, or those of a
+/// LOD that draws something else from afar (many have an empty second level, which only hides them), or none.
+enum class BelowLod : std::uint8_t { leave, leave_levels, take };
 
 enum class OfText : std::uint8_t { leave, take };
 

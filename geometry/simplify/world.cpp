@@ -135,7 +135,7 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
 
 void SimplifiedWorld::read_parts(const CollapseOptions& options, Task& ctx) {
   SurfaceReader reader(scene_, ctx);
-  const auto surfaces = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag));
+  const auto surfaces = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag), BelowLod::leave_levels);
   const auto scales = largest_scales(scene_, surfaces);
   SharedBorders borders;
   Mesh mesh;

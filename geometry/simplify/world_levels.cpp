@@ -133,16 +133,22 @@ std::size_t WorldLevels::n_faces() const { return impl_->world.n_faces + impl_->
 std::size_t WorldLevels::n_parts() const { return impl_->world.parts.size(); }
 const std::vector<WorldLevels::Point>& WorldLevels::points() const { return impl_->points; }
 
-void WorldLevels::report_missed(Diagnostics& diag) const {
+std::optional<std::size_t> WorldLevels::missed() const {
+  if (impl_->world.n_left == 0) return std::nullopt;
   const auto counts = counts_of(impl_->options, n_drawn());
   const auto fewest = points().empty() ? n_drawn() : points().back().n_drawn;
-  const auto missed = std::ranges::find_if(counts, [&](std::size_t count) { return count < fewest; });
-  if (impl_->world.n_left == 0 || missed == counts.end()) return;
+  const auto found = std::ranges::find_if(counts, [&](std::size_t count) { return count < fewest; });
+  return found == counts.end() ? std::nullopt : std::optional(*found);
+}
+
+void WorldLevels::report_missed(Diagnostics& diag) const {
+  const auto count = missed();
+  if (!count) return;
   std::string causes;
   for (const auto& [why, n] : impl_->world.left) causes += fmt::format("{}{} {}", causes.empty() ? "" : ", ", n, why);
   diag.report(
       Diag::not_simplified, {},
-      fmt::format("{} of {} triangles, so {} cannot be reached: {}", impl_->world.n_left, n_drawn(), *missed, causes));
+      fmt::format("{} of {} triangles, so {} cannot be reached: {}", impl_->world.n_left, n_drawn(), *count, causes));
 }
 
 Scene WorldLevels::scene_at(std::size_t i) const {

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,9 @@ class WorldLevels {
     double rms = 0, max = 0;
   };
   const std::vector<Point>& points() const;
-  /// Reports not-simplified, with the causes, where what stays as it is keeps a number of triangles from being reached.
+  /// The first number of triangles that what stays as it is keeps from being reached.
+  std::optional<std::size_t> missed() const;
+  /// Reports not-simplified, with the causes, where there is one.
   void report_missed(Diagnostics& diag) const;
   /// The first call makes the meshes of all points, which are kept; not for several threads at a time.
   Scene scene_at(std::size_t i) const;

@@ -84,7 +84,7 @@ std::vector<std::vector<std::uint32_t>> one_piece(const Mesh& mesh) {
 
 /// Leaves out what is not the same in both scenes.
 void keep_surfaces_of(const Scene& original, OfText text, std::vector<ShapeSurface>& found) {
-  const auto surfaces = surfaces_of(original, {}, BelowLod::leave, text);
+  const auto surfaces = surfaces_of(original, {}, BelowLod::leave_levels, text);
   const auto number = surface_numbers(original, surfaces);
   const auto is_there = [&](const ShapeSurface& s) {
     return std::ranges::all_of(s.shapes, [&](NodeId shape) {
@@ -107,7 +107,7 @@ WorldParts::WorldParts(const Scene& original, const Scene& scene, const Collapse
 
 void WorldParts::read(const Scene& original, OfText text, Task& ctx) {
   SurfaceReader reader(scene_, ctx);
-  auto found = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag), BelowLod::leave, text);
+  auto found = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag), BelowLod::leave_levels, text);
   if (&original != &scene_) keep_surfaces_of(original, text, found);
   const auto is_text = [&](const ShapeSurface& s) { return scene_.is(s.geometry, nodes::Text); };
   if (std::ranges::all_of(found, is_text)) {  // nothing would be left of the world
@@ -166,7 +166,7 @@ void WorldParts::count_left(const ShownTimes& shown, const std::vector<ShapeSurf
                             SurfaceReader& reader) {
   std::map<std::uint32_t, std::string_view> cause;  // by Shape
   const auto keep_cause = [&](NodeId shape, const char* why) { cause[shape.value] = why; };
-  surfaces_of(scene_, keep_cause, BelowLod::leave, text);
+  surfaces_of(scene_, keep_cause, BelowLod::leave_levels, text);
   auto others = surfaces_of(scene_, {}, BelowLod::take, OfText::take);
   std::vector<char> is_taken(scene_.node_count());
   for (const auto& s : taken) is_taken[s.geometry.value] = 1;

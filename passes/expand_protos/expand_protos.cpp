@@ -348,13 +348,19 @@ class Expansion {
 
   /// Instances that stay may come from bodies and files whose declarations they leave behind.
   void declare_missing() {
-    if (!any_node(scene_, [&](NodeId n) { return is_instance(scene_, n); })) return;
+    if (!any_node(scene_, [&](NodeId n) { return is_instance(scene_, n); })) return forget_bodies();
     auto& protos = scene_.main.protos;
     std::vector<char> declared(scene_.proto_count());
     for (ProtoId p : protos) declared[p.value] = 1;
     for (NodeId n : reachable(scene_, scene_.main))
       if (is_instance(scene_, n) && !std::exchange(declared[scene_.type(n).proto.value], 1))
         protos.push_back(scene_.type(n).proto);
+  }
+
+  /// Passes that look at all nodes would find what nothing shows any more.
+  void forget_bodies() {
+    if (!scene_.main.protos.empty()) return;
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) scene_.proto(ProtoId{i}).body = {};
   }
 
   Scene& scene_;

@@ -491,7 +491,7 @@ TEST_CASE("world levels: a text stays or leaves as a whole", "[levels]") {
 TEST_CASE("world levels: what must stay is not paid for by all the rest", "[levels]") {
   const std::string below_lod = "LOD { range 9 level [ Group { children [ " +
                                 at(9, 0, 0, "DEF Ball Shape { geometry Sphere { } }") + at(-9, 0, 0, "USE Ball") +
-                                " ] } Group { } ] }";
+                                " ] } Shape { geometry Box { } } ] }";
   TestWorld w(tank_with_bolts(4) + below_lod);
   const auto n_left = drawn(TestWorld(below_lod).scene);
   WorldSimplifyOptions options;

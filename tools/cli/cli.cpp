@@ -101,10 +101,16 @@ GivenOptions given_options(const CLI::App& verb) {
   return out;
 }
 
-std::string fault_text(const CLI::ParseError& fault, const std::vector<std::string>& words) {
+/// In our words where CLI11 lists the last one first.
+std::string what_is_wrong(const CLI::ParseError& fault, const CLI::App& app) {
+  if (dynamic_cast<const CLI::ExtrasError*>(&fault))
+    return fmt::format("more arguments than it takes: '{}'", fmt::join(app.remaining(true), "' '"));
+  const std::string what = fault.what();
+  return what.substr(0, what.find_last_not_of(".\n") + 1);
+}
+
+std::string fault_text(const std::string& what, const std::vector<std::string>& words) {
   const Verb* verb = words.empty() ? nullptr : find_verb(words[0]);
-  std::string what = fault.what();
-  what = what.substr(0, what.find_last_not_of(".\n") + 1);
   if (!verb) {
     const auto fault = program_option_fault(words);
     return fault.empty() ? "wrlkit: " + what + "; see wrlkit --help\n" : fault;
@@ -112,8 +118,10 @@ std::string fault_text(const CLI::ParseError& fault, const std::vector<std::stri
   std::vector<std::string> options;
   Flags unused;
   const auto app = app_of(*verb, unused);
-  for (const auto* o : long_options(*app))
-    for (const auto& name : o->get_lnames()) options.push_back(name);
+  for (const auto* o : long_options(*app)) {
+    options.insert(options.end(), o->get_lnames().begin(), o->get_lnames().end());
+    options.insert(options.end(), o->get_snames().begin(), o->get_snames().end());
+  }
   return option_fault(verb->name, words, options, app->get_option_no_throw("OUT") != nullptr, what);
 }
 
@@ -157,7 +165,7 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     chosen = nullptr;
-    std::fputs(fault_text(e, given).c_str(), stderr);
+    std::fputs(fault_text(what_is_wrong(e, app), given).c_str(), stderr);
     return usage;
   }
   for (auto* sub : app.get_subcommands()) {

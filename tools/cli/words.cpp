@@ -90,6 +90,18 @@ std::string output_hint(const std::string& verb, const std::vector<std::string>&
                              : std::string();
 }
 
+constexpr std::size_t most_meant = 3;  // options that begin with a letter
+
+/// The first option of one letter that is not among `options`; empty when there is none.
+std::string unknown_letter(const std::vector<std::string>& words, const std::vector<std::string>& options) {
+  for (const auto& word : words) {
+    if (word.size() < 2 || word[0] != '-' || !std::isalpha(static_cast<unsigned char>(word[1])) || word[1] == 'W')
+      continue;
+    if (std::ranges::find(options, word.substr(1, 1)) == options.end()) return word.substr(0, 2);
+  }
+  return {};
+}
+
 }  // namespace
 
 std::string spoken_verb(const std::string& verb) {
@@ -97,7 +109,7 @@ std::string spoken_verb(const std::string& verb) {
 }
 
 std::string program_option_fault(const std::vector<std::string>& words) {
-  if (words.empty() || !words[0].starts_with("--")) return {};
+  if (words.empty() || !words[0].starts_with('-')) return {};
   NearestName nearest(words[0]);
   for (const auto* option : {"--help", "--version"}) nearest.consider(option);
   return fmt::format("wrlkit: there is no option '{}' without a verb{}; see wrlkit --help\n", words[0],
@@ -138,6 +150,15 @@ std::string option_fault(const std::string& verb, const std::vector<std::string>
     const auto meant = nearest.best().empty() ? fmt::format("; see {} --help", name)
                                               : fmt::format("; did you mean '--{}'?", nearest.best());
     return fmt::format("{}: there is no option '--{}'{}\n", name, option, meant);
+  }
+  if (const auto letter = unknown_letter(words, options); !letter.empty()) {
+    std::vector<std::string> same;
+    for (const auto& o : options)
+      if (o.size() > 1 && o[0] == letter[1]) same.push_back("'--" + o + "'");
+    const bool is_few = !same.empty() && same.size() <= most_meant;
+    const auto meant =
+        is_few ? fmt::format("; did you mean {}?", fmt::join(same, " or ")) : fmt::format("; see {} --help", name);
+    return fmt::format("{}: there is no option '{}'{}\n", name, letter, meant);
   }
   return fmt::format("{}: {}; see {} --help\n", name, what, name);
 }

@@ -18,6 +18,7 @@ std::string spoken_verb(const std::string& verb);
 std::string program_option_fault(const std::vector<std::string>& words);
 
 /// What was wrong with options, in a line: "wrlkit convert: there is no option '--ratio'; did you mean '--ratios'?".
+/// `options`: all names of the verb without dashes, those of one letter too. `what`: the fault where all of them exist.
 std::string option_fault(const std::string& verb, const std::vector<std::string>& words,
                          const std::vector<std::string>& options, bool takes_output, const std::string& what);
 

@@ -18,6 +18,7 @@
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world_levels.h"
 #include "passes/expand_protos/expand_protos.h"
+#include "passes/lod/first_levels.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
 
@@ -118,6 +119,7 @@ struct WrittenWorlds {
   std::size_t n_drawn = 0, n_faces = 0;
   std::vector<Written> points;
   std::string lod_file;
+  bool is_opened = false;  // prototypes and LODs are replaced by what they show
 };
 
 void print_json(const WrittenWorlds& all) {
@@ -129,6 +131,7 @@ void print_json(const WrittenWorlds& all) {
                     "max", p.max);
       });
       if (!all.lod_file.empty()) json.member("lod", all.lod_file);
+      json.member("expanded", all.is_opened);
     });
   });
   fmt::print("{}\n", text);
@@ -141,6 +144,9 @@ void print_table(const WrittenWorlds& all) {
     fmt::print("{:>10}  {:>10}  {:>8}  {:>10.3g}  {:>10.3g}  {}\n", p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max,
                p.file);
   if (!all.lod_file.empty()) fmt::print("{:>68}\n", all.lod_file);
+  if (all.is_opened)
+    fmt::print(
+        "to have few enough triangles, prototypes and LODs were replaced by what they show (not with -p weld)\n");
 }
 
 /// As `info` counts them. Messages about them come when they are simplified.
@@ -207,6 +213,18 @@ std::optional<Scene> expanded_scene(Session& s) {
   return out;
 }
 
+/// Replaces instances of prototypes by their bodies, and LODs by their first levels, which then are Shapes as others.
+/// False when there are none.
+bool open_up(Session& s) {
+  Scene& scene = s.world().scene;
+  Diagnostics unheard(s.diag().shared_sources());
+  PassContext ctx(unheard, s.context().stats, &s.resources());
+  const bool has_expanded = expand_protos(scene, {}, ctx) == Outcome::changed;
+  if (keep_first_levels(scene) == 0 && !has_expanded) return false;
+  std::string why;
+  return Pipeline::parse("weld", why)->run(scene, ctx, {});
+}
+
 /// Whether the last world has as few triangles as were asked for.
 bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& options) {
   const auto counts = counts_of(options, world.n_faces());
@@ -236,9 +254,15 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
       s.diag().report(Diag::not_simplified, {},
                       fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
                                   WorldLevels::most_drawn));
+    if (world.missed() && !s.flags().pipeline_given && open_up(s)) {
+      options.expanded = nullptr;
+      const bool is_written = simplify_world(s, options, names, all);
+      all.is_opened = true;
+      return is_written;
+    }
     if (world.n_parts() > 1) {
       world.report_missed(s.diag());  // first: of many messages of a kind the first ones are shown
-      surfaces_of(scene, report_not_simplified(scene, s.diag()));
+      surfaces_of(scene, report_not_simplified(scene, s.diag()), BelowLod::leave_levels, OfText::take);
       return write_worlds(s, world, names, all);
     }
   }
