@@ -11,9 +11,10 @@ namespace wrlkit::simplify {
 namespace {
 
 constexpr double within = 0.02;  // of the way from a corner to the middle of its face
-// Cosines between a normal and that of its face. One that a flat triangle had is right for faces like that only: a beam
-// that has become a strip is as bright as the strip.
-constexpr double least_facing = 0.1, least_facing_of_flat = 0.9;
+// Cosines between a normal and that of its face. At the corners of a pipe of three sides it is a half; with less, faces
+// that one sees would be dark. One that a flat triangle had is right for faces like that only: a beam that has become a
+// strip is as bright as the strip.
+constexpr double least_facing = 0.45, least_facing_of_flat = 0.9;
 constexpr double same_facing = 1e-3;  // 1 minus the cosine, for flat faces: 2.5 degrees
 constexpr float decimals = 1000;
 

@@ -199,7 +199,7 @@ class Writer {
     std::vector<Column> out;
     if (!parts_.columns() || parts_.rows().empty()) return out;
     out = {parts_.texts(), parts_.offsets(packed)};
-    if (parts_.any_parent()) out.push_back(parts_.parents(packed));
+    if (parts_.has_parents()) out.push_back(parts_.parents(packed));
     if (!parts_.sources().empty()) out.push_back(parts_.row_sources());
     return out;
   }

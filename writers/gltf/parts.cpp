@@ -73,8 +73,8 @@ bool PartTable::any_without_source() const {
   return std::ranges::any_of(rows_, [](const Row& r) { return r.source >= no_source; });
 }
 
-bool PartTable::any_parent() const {
-  return std::ranges::any_of(rows_, [](const Row& r) { return r.parent != none; });
+bool PartTable::has_parents() const {
+  return !sources_.empty() || std::ranges::any_of(rows_, [](const Row& r) { return r.parent != none; });
 }
 
 }  // namespace wrlkit::gltf

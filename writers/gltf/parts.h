@@ -59,7 +59,9 @@ class PartTable {
   const std::vector<std::string>& sources() const { return sources_; }
   bool any_without_source() const;
   static constexpr std::uint32_t no_source = 65535;
-  bool any_parent() const;
+  /// Whether there is a column of parents: always where there are sources, so that all tiles of a set have the same
+  /// ones.
+  bool has_parents() const;
   static std::uint32_t no_parent(bool packed, std::size_t n_rows) { return packed || n_rows > 65535 ? none : 65535; }
 
  private:

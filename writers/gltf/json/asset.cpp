@@ -61,7 +61,7 @@ class AssetJson : public JsonPart {
 
   /// EXT_structural_metadata: a row for each part and group.
   void table() {
-    const bool packed = p_.packing.uses_meshopt(), parents = p_.names.any_parent();
+    const bool packed = p_.packing.uses_meshopt(), parents = p_.names.has_parents();
     const std::size_t n = p_.names.rows().size();
     const auto no_parent = PartTable::no_parent(packed, n);
     const bool sources = !p_.names.sources().empty();
