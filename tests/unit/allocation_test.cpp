@@ -10,7 +10,8 @@ using namespace wrlkit;
 
 TEST_CASE("allocation: what a step of many places leaves over goes to other parts", "[levels]") {
   std::ostringstream text;
-  text << "Transform { translation 0 0 40 children Shape { geometry Sphere { } } } DEF Ball Transform { children Shape { geometry Sphere { } } }\n";
+  text << "Transform { translation 0 0 40 children Shape { geometry Sphere { } } }\n"
+          "DEF Ball Transform { children Shape { geometry Sphere { } } }\n";
   for (int i = 1; i < 100; ++i) text << "Transform { translation " << 3 * i << " 0 0 children USE Ball }\n";
   TestWorld w(text.str());
   WorldSimplifyOptions options;
