@@ -353,10 +353,6 @@ double WorldParts::enough(const Surroundings& around, const SurfaceSample& sampl
 
 void WorldParts::make_ladder_of(std::uint32_t ladder) {
   const auto& members = members_[ladder];
-  if (const auto& part = parts[members[0]]; surfaces[part.surface].whole) {
-    ladders_[ladder].push_back({.n_faces = part.faces.size()});
-    return;
-  }
   CollapseOptions options = options_;
   const Mesh mesh = in_metres(parts[members[0]], &options);
   auto samples = sample_surface(triangles_of(mesh), std::clamp(ladder_samples_of_face * mesh.n_faces(),

@@ -18,7 +18,7 @@ struct PlacedSurface {
   double scale = 1;              // metres of the world for its unit, there
   std::vector<std::uint32_t> fixed{};
   std::uint32_t look = 0;
-  bool whole = false;  // it stays as it is, or leaves
+  bool whole = false;  // one part, however many pieces: a Text, whose letters leave together
   std::uint32_t first_part = 0, n_parts = 0;
 
   /// Places that each of `some` stands for.
