@@ -15,6 +15,7 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
                    const SaveHooks& hooks, const Sink* sink, Saved& saved) {
   Scene& scene = document.scene();
   PassContext& ctx = document.context();
+  const bool is_checked = !sink && !options.dump && ctx.resources;
   MeshSource meshes;
   MeshMakers makers;
   if (to.format->meshes) {
@@ -22,11 +23,11 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
     if (!meshes) return false;
   } else {
     if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
-    if (!sink && to.path != "-" && !options.dump && ctx.resources)
-      report_missing_parts(scene, *ctx.resources, ctx.diag);
+    if (is_checked && to.path != "-") report_missing_parts(scene, *ctx.resources, ctx.diag);
+    if (is_checked && to.path == "-") report_missing_pictures(scene, *ctx.resources, ctx.diag);
     if (hooks.last) hooks.last(scene);
   }
-  if (!sink && to.path != "-" && !options.dump && ctx.resources) report_missing_media(scene, *ctx.resources, ctx.diag);
+  if (is_checked && (to.path != "-" || to.format->meshes)) report_missing_media(scene, *ctx.resources, ctx.diag);
   return to.format->write({scene, meshes, ctx, options, to, sink, saved, makers});
 }
 

@@ -23,8 +23,8 @@ struct Tessellation {
 
   /// For passes that make meshes of what they change: how finely, so that their options show it.
   void fineness_fields(auto&& f) {
-    f("tolerance", tolerance, "maximum distance between a curved surface and its faces, in metres; 0: set by its size",
-      at_least(0));
+    f("tolerance", tolerance, "maximum distance between a curved surface and its faces; 0: set by its size",
+      a_length());
     f("segments", segments, "faces around Cone, Cylinder and Sphere; 0: set by tolerance", between(0, 4096));
   }
   void fields(auto&& f) {

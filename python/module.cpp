@@ -24,7 +24,7 @@ struct PyMesh {
 
 std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
   if (!node.type().is_a(nodes::X3DGeometryNode))
-    throw py::type_error(std::string(node.type().name) + " is no geometry");
+    throw py::type_error(std::string(node.type().name) + " is not a geometry node");
   auto out = std::make_unique<PyMesh>();
   out->world = node.world;
   MeshScratch scratch;
@@ -98,10 +98,17 @@ std::vector<PyNode> roots_of(const std::shared_ptr<PyWorld>& w) {
   return out;
 }
 
-void set_roots(const std::shared_ptr<PyWorld>& w, const std::vector<PyNode>& nodes) {
+void set_roots(const std::shared_ptr<PyWorld>& w, const py::object& nodes) {
+  const auto wrong = [](const py::object& given) {
+    return py::type_error("World.roots is a list of Nodes, not " + shown_value(given));
+  };
+  if (py::isinstance<PyNode>(nodes) || !py::isinstance<py::iterable>(nodes)) throw wrong(nodes);
   std::vector<NodeId> ids;
-  for (const auto& n : nodes)
+  for (const auto item : nodes) {
+    if (!py::isinstance<PyNode>(item)) throw wrong(py::reinterpret_borrow<py::object>(item));
+    const auto& n = item.cast<const PyNode&>();
     ids.push_back(n.world == w ? n.id : throw py::value_error("the node is of another world"));
+  }
   w->scene().main.roots = ids;
 }
 
@@ -156,6 +163,8 @@ void define_node(py::class_<PyNode>& type) {
       .def("__getattr__", &get_field)
       .def("__setattr__",
            [](const py::object& self, const std::string& name, const py::object& value) {
+             if (name == "name" && !py::isinstance<py::str>(value))
+               throw py::type_error("Node.name is a str, not " + shown_value(value));
              if (name == "name")
                self.get_type().attr("name").attr("__set__")(self, value);
              else

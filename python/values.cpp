@@ -47,6 +47,26 @@ NodeId node_of(const PyNode& holder, const py::handle& value) {
   return node.id;
 }
 
+/// What Python gives for a field of that type, in words.
+std::string expected(const FieldTypeInfo& t, FieldType type) {
+  const auto list_of = [&](const std::string& what) { return "a list of " + what; };
+  switch (t.element) {
+    case Element::number:
+      if (t.arity == 1) return t.multiple ? list_of("numbers") : "a number";
+      return t.multiple ? list_of(std::to_string(t.arity) + " numbers each") : std::to_string(t.arity) + " numbers";
+    case Element::integer:
+      if (type == FieldType::SFBool) return "True or False";
+      return t.multiple ? list_of("ints") : "an int";
+    case Element::image:
+      return list_of("ints: width, height, components, pixels");
+    case Element::text:
+      return t.multiple ? list_of("texts") : "a str";
+    case Element::node:
+      return t.multiple ? list_of("Nodes") : "a Node or None";
+  }
+  return {};
+}
+
 /// Whether an array holds tuples of so many numbers: one after the other, or each in a row of its own.
 bool fits(const py::array& array, std::size_t arity) {
   const auto last = array.ndim() > 0 ? static_cast<std::size_t>(array.shape(array.ndim() - 1)) : 1;
@@ -87,7 +107,8 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
   Scene& scene = node.scene();
   const auto wrong = [&] {
     return py::type_error(std::string(node.type().name) + "." + std::string(field.name) +
-                          (t.name[0] == 'S' || t.name[0] == 'M' ? " is an " : " is a ") + std::string(t.name));
+                          (t.name[0] == 'S' || t.name[0] == 'M' ? " is an " : " is a ") + std::string(t.name) + ": " +
+                          expected(t, field.type) + ", not " + shown_value(value));
   };
   try {
     switch (t.element) {
@@ -121,6 +142,8 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
       case Element::node: {
         if (!t.multiple) return scene.make(field.type, slot, node_of(node, value));
         std::vector<NodeId> ids;
+        if (py::isinstance<PyNode>(value)) return scene.make(field.type, slot, std::vector{node_of(node, value)});
+        if (!py::isinstance<py::iterable>(value) || py::isinstance<py::str>(value)) throw wrong();
         for (auto item : value) ids.push_back(node_of(node, item));
         return scene.make(field.type, slot, ids);
       }
@@ -141,6 +164,13 @@ std::uint16_t slot_of(const PyNode& node, const std::string& name) {
 }
 
 }  // namespace
+
+std::string shown_value(const py::object& value) {
+  if (value.is_none()) return "None";
+  constexpr std::size_t longest = 60;
+  const std::string kind = py::str(value.get_type().attr("__name__")), text = py::repr(value);
+  return text.size() > longest || text.find(kind) != text.npos ? "a " + kind : kind + ' ' + text;
+}
 
 py::object get_field(const PyNode& node, const std::string& name) {
   return to_python(node, node.scene().value(node.id, slot_of(node, name)));

@@ -122,6 +122,12 @@ std::shared_ptr<PyWorld> PyWorld::load(const std::string& path, std::vector<std:
   return std::make_shared<PyWorld>(std::move(document));
 }
 
+std::vector<MessageView> PyWorld::said_since(std::size_t n) const {
+  auto said = views(diag());
+  said.erase(said.begin(), said.begin() + static_cast<std::ptrdiff_t>(std::min(n, said.size())));
+  return said;
+}
+
 PyWorld::Counts PyWorld::run(Pipeline& pipeline) {
   Statistics stats;
   bool good = false;
@@ -131,11 +137,7 @@ PyWorld::Counts PyWorld::run(Pipeline& pipeline) {
     auto ctx = context(stats);
     good = pipeline.run(scene(), ctx) && (!ctx.resources || write_named_files(*ctx.resources, ctx.diag));
   }
-  if (!good) {
-    auto said = views(diag());
-    said.erase(said.begin(), said.begin() + static_cast<std::ptrdiff_t>(std::min(said_before, said.size())));
-    fail("the pipeline has failed", said);
-  }
+  if (!good) fail("the pipeline has failed", said_since(said_before));
   return {stats.begin(), stats.end()};
 }
 
@@ -173,6 +175,7 @@ void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
   ConvertOptions options;
   set_options(options, given);
   Diagnostics faults(diag().shared_sources());
+  const auto said_before = diag().messages().size();
   Saved saved;
   bool is_valid = false;
   {
@@ -181,7 +184,7 @@ void PyWorld::save(const std::string& path, const py::kwargs& keywords) {
     if (is_valid) saved = wrlkit::save(copy(), path, options.save);
   }
   if (!is_valid) fail(path + ": the scene is not valid", views(faults));
-  if (!saved) fail(path + ": it could not be written", views(diag()));
+  if (!saved) fail(path + ": it could not be written", said_since(said_before));
 }
 
 py::object PyWorld::info(bool recognise) {
@@ -205,7 +208,7 @@ void PyWorld::report(const std::string& severity, const std::string& text, const
   else if (severity == "lost")
     diag().report(Diag::python_lost, where, text);
   else
-    throw py::value_error("'" + severity + "' is no severity: error, warning or lost");
+    throw py::value_error("'" + severity + "' is not a severity: error, warning or lost");
 }
 
 void PyWorld::detach() {

@@ -61,6 +61,8 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
 
  private:
   Counts run(Pipeline& pipeline);
+  /// The messages behind the first n.
+  std::vector<MessageView> said_since(std::size_t n) const;
   /// With the same scene, whose arrays are shared.
   Document copy() const;
 
@@ -88,6 +90,9 @@ py::array view(py::object holder, std::span<const T> all, std::size_t width) {
   out.attr("flags").attr("writeable") = false;
   return out;
 }
+
+/// A value in a message: its type, and what it is where that is short.
+std::string shown_value(const py::object& value);
 
 py::object get_field(const PyNode& node, const std::string& name);
 void set_field(const PyNode& node, const std::string& name, const py::object& value);

@@ -29,7 +29,8 @@ NearestName::NearestName(std::string_view name)
 
 void NearestName::consider(std::string_view candidate) {
   const bool begins = name_.size() >= 3 && lower_case(candidate).starts_with(lower_case(name_));
-  const auto d = begins ? std::size_t{1} : letters_apart(name_, candidate);
+  const auto apart = letters_apart(name_, candidate);
+  const auto d = begins ? std::min<std::size_t>(apart, 1) : apart;
   if (d >= least_ || d >= std::max(name_.size(), candidate.size())) return;
   least_ = d;
   best_ = candidate;

@@ -33,8 +33,8 @@ std::string why_missing(CombinedFormat);
 
 struct CombineLightmapOptions {
   static constexpr std::string_view doc = R"(
-A surface's own colour times its baked light, in one picture. VRML has one texture a Shape, so what was two, at two
-places, becomes one at the places of the lightmap:
+Combines a surface's colour and its baked light into one picture. VRML has one texture per Shape, so two textures with
+different coordinates become one, with the coordinates of the lightmap:
 
     Shape {                                                   Shape {
       appearance Appearance {                                   appearance Appearance {
@@ -49,30 +49,30 @@ places, becomes one at the places of the lightmap:
       }
     }
 
-There is no Material any more: without one a Shape is not lit (ISO/IEC 14772-1, table 4.5) and shows its texture as it
-is; with one it would be lit twice. What a Material emits is added to the picture; its highlights are lost.
-Transparency becomes alpha of the picture. Opaque Shapes do not share a picture with transparent ones: browsers would
-blend them.
+The result has no Material. Without one, a Shape is not lit and shows its texture unchanged (ISO/IEC 14772-1, table
+4.5); with one, it would be lit twice. Emitted light is added to the picture; highlights are lost. Transparency becomes
+the picture's alpha. Opaque and transparent Shapes use separate pictures, because browsers would blend the opaque ones.
 
-A page of light becomes one combined page (two, when it has transparent Shapes), larger by a whole factor, so that
-textures keep their detail. Where that saves a quarter of the texels, all pages are packed again instead: each chart has
-as many texels as its own texture asks for, and even ones, such as a wall in full shade, half as many along each side,
-a quarter, and so on down to one, as far as `tolerance` allows. Nodes that other Shapes use, which have no light, are
+A page of light becomes one combined page, or two if it has transparent Shapes. It is larger by a whole factor, so that
+textures keep their detail. If that saves a quarter of the texels, all pages are packed again instead: each chart gets
+as many texels as its own texture needs. A chart with even light, such as a wall in shade, gets half as many per side,
+or a quarter, down to one texel, as far as `tolerance` allows. Nodes that Shapes without baked light use as well are
 copied before they change.
 
-With `budget` or `texels` charts are halved further, those first that lose least for each texel that is saved. What
-that costs is reported (light-budget).
+With `budget` or `texels`, more charts are halved, first those that lose least per texel saved. The loss is reported
+(light-budget).
 
-With `into=auto` a Shape that is opaque and has no picture gets colours at its corners (Color), where that is better for
-its bytes: small parts, faces in full light or shade. The colours are those whose mixture is nearest to the texels;
-error times bytes must be less than `tolerance` times the bytes of texels, and the error at most twice the tolerance.
+With `into=auto`, a Shape that is opaque and has no picture gets colours at its corners (Color) if that is better for
+its size in bytes, as for small parts and for faces in full light or shade. The colours are the best fit to the texels.
+Error times bytes must be less than `tolerance` times the bytes of the texels, and the error at most twice the
+tolerance.
 
-A scene without lightmaps is left alone, in O(nodes); so is any without resources, which hold the pictures.)";
+Scenes without lightmaps do not change, which costs O(nodes). Nor do scenes without resources, which hold the pictures.)";
   static constexpr StatisticInfo statistics[] = {
-      {"combine-lightmap.shapes", "Shapes that have one texture now"},
-      {"combine-lightmap.vertex-shapes", "those that have colours at their corners instead"},
-      {"combine-lightmap.pages", "pictures"},
-      {"combine-lightmap.texels", "their texels"},
+      {"combine-lightmap.shapes", "Shapes whose colour and light are now one texture"},
+      {"combine-lightmap.vertex-shapes", "Shapes that have colours at their corners instead"},
+      {"combine-lightmap.pages", "pictures made"},
+      {"combine-lightmap.texels", "texels of these pictures"},
   };
 
   TexelFactor scale;

@@ -12,30 +12,30 @@ namespace wrlkit {
 
 struct CullOptions {
   static constexpr std::string_view doc = R"(
-Leaves out what is too small to matter, or what nobody can ever see: bolts in an overview of a plant, the inner tubes
-of a heat exchanger.
+Removes parts that are too small to matter, or that nobody can see: bolts in an overview of a plant, the inner tubes of
+a heat exchanger.
 
     before   Shape { geometry Box { size 9 9 9 } }   DEF Core Shape { geometry Sphere { } }
     after    Shape { geometry Box { size 9 9 9 } }     # cull{hidden=true}: the sphere was inside
 
-Removes Shapes from the groups that hold them, if that goes for all places where they are shown.
+A Shape is removed from its groups only if the condition holds at every place where it is shown.
 
-- `smaller`: the extent is the longest diagonal of the box around a part, in the largest of its places. Shapes without
-  a name that share points and stand in one frame are one part: a solid may be written as one Shape a face.
-- `hidden`: rays go from points all over the part, evenly by area, in all directions. A part is seen when one reaches
-  the outside, a Viewpoint or a walkway. What is left out was seen by none of them; a part behind a hole of a thousandth
-  of its sky may be among it. Nothing hides behind what has transparency or a picture.
-  Of forms that `recognise` found, caps go that face one another, where a pipe goes on or a flange meets another.
-- Left alone: what a ROUTE, a Script, an IS or an instance of a prototype may change, with all below it; what stands
-  below a LOD or Switch, or is held otherwise than by a group; lines and points, by `hidden`.
+- `smaller` compares the diagonal of the part's bounding box, at its largest place. Unnamed Shapes that share points and
+  a coordinate frame count as one part, because a solid may be written as one Shape per face.
+- `hidden` sends rays in all directions from points spread evenly over the part. The part is visible if one ray reaches
+  the outside, a Viewpoint or a walkway. A part that is visible only through a hole that covers a thousandth of its sky
+  may be removed by mistake. Transparent parts and parts with pictures hide nothing. For forms that `recognise` found,
+  caps that face one another are removed, as between two pipes or a pipe and a flange.
+- Left unchanged: everything that a ROUTE, Script, IS or prototype instance may change, with all nodes below it;
+  children of a LOD or Switch; Shapes that are not children of a group; and, for `hidden`, lines and points.
 
-Groups stay, also empty ones: run `prune` behind it. What is left out is reported (culled), with the first names; `list`
-gets all. The same result for any number of threads.)";
+Groups stay even if they become empty: run `prune` afterwards. The first removed names are reported (culled); `list`
+writes all of them to a file. The result is the same for any number of threads.)";
   static constexpr StatisticInfo statistics[] = {
-      {"cull.small", "Shapes that were too small"},
-      {"cull.hidden", "Shapes that were never seen"},
-      {"cull.caps", "ends of pipes, elbows and flanges that stood against another"},
-      {"cull.triangles", "triangles of all"},
+      {"cull.small", "Shapes removed because they were too small"},
+      {"cull.hidden", "Shapes removed because they were never visible"},
+      {"cull.caps", "caps removed where pipes, elbows and flanges meet"},
+      {"cull.triangles", "triangles removed"},
       {"cull.draws-before", "Shapes drawn before the pass"},
       {"cull.draws-after", "Shapes drawn after the pass"},
       {"cull.nodes-before", "nodes before the pass"},

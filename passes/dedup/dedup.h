@@ -6,32 +6,31 @@ namespace wrlkit {
 
 struct DedupOptions {
   static constexpr std::string_view doc = R"(
-What is written several times and says the same becomes one node that is used several times. Exporters write a
-Material for each Shape, and the same bolt for each place.
+Shares equal nodes. Exporters write a Material for each Shape, and the same bolt again at each place.
 
     before   Shape { appearance Appearance { material Material { diffuseColor 1 0 0 } } geometry Box {} }
              Shape { appearance Appearance { material DEF Red Material { diffuseColor 1 0 0 } } geometry Box {} }
     after    Shape { appearance DEF _1 Appearance { material DEF Red Material { ... } } geometry DEF _2 Box {} }
              Shape { appearance USE _1 geometry USE _2 }
 
-Shares Appearances and all that is in them (materials, textures), geometry, Coordinates and the like, FontStyles:
-those that say the same, value for value. A default that is written says the same as one that is not. A picture is the
-same if its url is, below the same folder.
+Appearances with their materials and textures, geometries, Coordinates and the like, and FontStyles are shared if all
+their values are equal. A default counts as equal whether it is written or not. Pictures are equal if they have the same
+url relative to the same folder.
 
-- Names stay: nodes of different DEF names stay what they are and share what is below; a node without a name gives way
-  to one that has a name and says the same.
-- Left alone: what a ROUTE, a Script, an IS or a prototype instance may change, with what holds it; nodes with fields
-  that are not known; Shapes and groups, which are things of their own.
-- The bodies of prototypes are scopes of their own, and share among themselves.
+- Names stay. Nodes with different DEF names remain separate, but share their contents. An unnamed node is replaced by
+  an equal node with a name.
+- Left unchanged: nodes that a ROUTE, Script, IS or prototype instance may change, and the nodes that hold them; nodes
+  with unknown fields; Shapes and groups, which are objects of their own.
+- The body of each prototype is a scope of its own; nodes are shared only within it.
 
-Nothing is seen of it. Linear in nodes and values.)";
+The scene looks the same. Cost: linear in nodes and values.)";
   static constexpr StatisticInfo statistics[] = {
-      {"dedup.appearances", "how many Appearances fewer there are"},
-      {"dedup.materials", "how many materials fewer there are"},
-      {"dedup.textures", "how many textures fewer there are"},
-      {"dedup.geometries", "how many geometry nodes fewer there are"},
-      {"dedup.arrays", "how many Coordinates, Normals and the like fewer there are"},
-      {"dedup.others", "how many other nodes fewer there are"},
+      {"dedup.appearances", "Appearances saved"},
+      {"dedup.materials", "materials saved"},
+      {"dedup.textures", "textures saved"},
+      {"dedup.geometries", "geometry nodes saved"},
+      {"dedup.arrays", "Coordinates, Normals and the like saved"},
+      {"dedup.others", "other nodes saved"},
       {"dedup.draws-before", "Shapes drawn before the pass"},
       {"dedup.draws-after", "Shapes drawn after the pass"},
       {"dedup.nodes-before", "nodes before the pass"},

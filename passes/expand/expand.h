@@ -7,14 +7,13 @@ namespace wrlkit {
 
 struct ExpandOptions {
   static constexpr std::string_view doc = R"(
-Everything in one world, without prototypes: `inline` and `expand-protos` in turn, until neither finds more.
+Makes one scene without Inlines and prototypes. Runs `inline` and `expand-protos` in turn until neither finds anything.
 
     PROTO Pump [ field MFString file [] ] { Inline { url IS file } }
-    Pump { file "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl, and of the Inlines in its prototypes... ]
-    }
+    Pump { file "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl and of the Inlines in its prototypes... ] }
 
-A prototype may hold Inlines, and an inlined world instances of prototypes, as deep as `depth` says. The limits hold
-for all turns together. Cost: that of both passes, for each level.)";
+Prototypes may contain Inlines, and inlined files may contain prototype instances, up to `depth`. The limits apply to
+all rounds together. Cost: that of both passes for each level of nesting.)";
 
   int depth = 16;
   int limit = 500'000;

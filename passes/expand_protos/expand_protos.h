@@ -7,21 +7,22 @@ namespace wrlkit {
 
 struct ExpandProtosOptions {
   static constexpr std::string_view doc = R"(
-Every instance of a prototype becomes the nodes of its body.
+Replaces each prototype instance by the nodes of the prototype's body.
 
     PROTO Bolt [ field SFFloat r 1 ] { Shape { geometry Cylinder { radius IS r } } }
     Bolt { r 2 }   ->   Shape { geometry Cylinder { radius 2 } }
 
-The first node of the body takes the place of the instance and keeps its DEF name (ISO/IEC 14772-1, 4.8.3); the others
-are not drawn but can be reached by events: those that are part of a ROUTE and Scripts are kept, in a Switch that
-shows none of them. ROUTEs of the body come along, ROUTEs to the instance go to what IS connects them to; an
-exposedField without IS passes events on. EXTERNPROTOs are looked up in the files they name; an instance whose
+The first node of the body takes the place of the instance and its DEF name (ISO/IEC 14772-1, 4.8.3). The other nodes of
+the body are not drawn, but events can reach them. Scripts, and nodes that a ROUTE uses, are therefore kept in a Switch
+that shows nothing. ROUTEs of the body are copied. A ROUTE to the instance is redirected to the fields that IS connects;
+an exposedField without IS passes its events on. EXTERNPROTOs are loaded from the files they name. An instance whose
 prototype is not found stays.
 
-Nodes are shared wherever instances cannot differ: what no IS and no event reaches is in the scene once, and instances
-with equal values hold the same nodes, unless events can reach them. So a prototype that doubles itself forty times
-costs forty nodes and not 2^40. Cost: n log n in what comes out, which is limited; instances beyond the limit become
-empty Groups.)";
+Nodes are shared wherever instances cannot differ. A node that no IS and no event reaches is stored once. Instances with
+equal values share their nodes, unless events can reach them. A prototype that doubles itself forty times costs forty
+nodes instead of 2^40.
+
+Cost: n log n in the result, whose size is limited. Instances beyond the limit become empty Groups.)";
 
   int limit = 500'000;
   bool keep_declarations = false;

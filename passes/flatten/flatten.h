@@ -7,21 +7,22 @@ namespace wrlkit {
 
 struct FlattenOptions {
   static constexpr std::string_view doc = R"(
-Transforms that never move, multiplied into the points: for tools that know no hierarchy of transformations.
+Applies Transforms that never move to the points, for programs that do not support a hierarchy of transformations.
 
     before   DEF Pump Transform { translation 5 0 0 children Shape { geometry IndexedFaceSet { ... [ 0 0 0, ...
     after    DEF Pump Group { children Shape { geometry IndexedFaceSet { ... [ 5 0 0, ...
 
-Makes a Group of each Transform that holds nothing but Shapes, Groups and such Transforms, and moves the Shapes. What
-is shared is written for each place (as by `lightmap`; names of copies are numbered). Faces get their normals first,
-so what is drawn stays the same; curved forms become faces as by `tessellate` with the same options.
+A Transform that contains only Shapes, Groups and other such Transforms becomes a Group, and its Shapes are moved.
+Shared geometry is copied for each place, as in `lightmap`; names of copies are numbered. Normals are computed first, so
+the scene looks the same. Curved forms become faces as by `tessellate` with the same options.
 
-- A Transform stays if a ROUTE, a Script or an IS touches it or something below it, or if it holds lights, Viewpoints,
-  sensors, LODs or anything else with a place of its own. What is below it is moved to its frame.
+- A Transform stays if a ROUTE, Script or IS uses it or a node below it, or if it contains lights, Viewpoints, sensors,
+  LODs or other nodes with a position. Shapes below it are moved to its coordinate frame.
 - A Transform that moves nothing stays, too.
-- Names stay where they were, but for those of geometry and Coordinates that were shared.
+- Names stay where they are, except those of shared geometry and Coordinates.
 
-Files become larger by it: run it on request only. Linear in what is drawn, which is there once for each place.)";
+Files become larger, so the pass runs only when you ask for it. Cost: linear in what is drawn, which is stored once for
+each place.)";
   static constexpr StatisticInfo statistics[] = {
       {"flatten.transforms", "Transforms that became Groups"},
       {"flatten.shapes", "Shapes that were moved"},

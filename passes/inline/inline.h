@@ -10,15 +10,17 @@ namespace wrlkit {
 
 struct InlineOptions {
   static constexpr std::string_view doc = R"(
-The worlds that Inline nodes name become part of this one.
+Replaces each Inline by the contents of the file that it names.
 
     Inline { url "pump.wrl" }   ->   Group { children [ ...nodes of pump.wrl... ] }
 
-Each file is read once and its nodes are shared by all Inlines that name it, but for those that events can reach: each
-Inline has its own. An Inline that cannot be loaded stays. The names, prototypes and ROUTEs of the file come along;
-they cannot be reached by name from outside (ISO/IEC 14772-1, 6.25), but for what X3D exports: ROUTEs to imported
-names (ISO/IEC 19775-1, 4.4.6) lead to the nodes themselves. Cost: n log n in the nodes of the files and in the
-copies, which are limited; beyond the limit they are shared.)";
+Each file is read once. All Inlines that name it share its nodes, except for nodes that events can reach: every Inline
+gets its own copy of those. An Inline whose file cannot be loaded stays.
+
+The file's DEF names, prototypes and ROUTEs are kept. They cannot be addressed from outside (ISO/IEC 14772-1, 6.25),
+unless X3D exports them: a ROUTE to an imported name (ISO/IEC 19775-1, 4.4.6) then leads to the node itself.
+
+Cost: n log n in the nodes of the files and in the copies. The copies are limited; beyond the limit, nodes are shared.)";
 
   int depth = 16;
   int limit = 500'000;

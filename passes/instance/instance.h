@@ -16,39 +16,39 @@ inline constexpr auto choices<instancing::Scaling> =
 
 struct InstanceOptions {
   static constexpr std::string_view doc = R"(
-The same part in many places, written again for each: found and written once. CAD exporters know no DEF and USE, and
-put the coordinates of each bolt where it stands.
+Finds geometry that is repeated at other places, and stores it once. CAD exporters often do not use DEF and USE: they
+write the coordinates of each bolt where it stands.
 
     before   Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 2 0 ] } ... } }
              Shape { geometry IndexedFaceSet { coord Coordinate { point [ 5 0 0, 5 1 0, 3 0 0 ] } ... } }
     after    Shape { geometry DEF _1 IndexedFaceSet { ... } }
              Transform { translation 5 0 0 rotation 0 0 1 1.570796 children Shape { geometry USE _1 } }
 
-Shares geometry (IndexedFaceSet, IndexedLineSet, PointSet) that is the same but for a rotation, a translation and a
-scale: the first keeps its geometry, the Shapes of the others stand in a new Transform and USE it.
+IndexedFaceSet, IndexedLineSet and PointSet are shared if they are equal after a rotation, a translation and a scale.
+The first one keeps its geometry. The Shapes of the others move into a new Transform and USE it.
 
-- Found without names and in any order of faces, points and corners, with points shared or not. Meshes are compared by
-  what a motion does not change, then vertex by vertex. Every corner is within `tolerance` of where it was, in the
-  largest of its places; its colour is the same, its normal within 0.3 degrees, its texture coordinate within 0.00001.
-  ccw, solid, convex and creaseAngle agree. `axis` finds only copies whose corners stand in the same order, and needs
-  normals in the file or a creaseAngle of 0.
-- A mirror image has its faces the other way round, and a scale with a negative factor turns them.
-- `forms`: a pipe is a cylinder of radius and height 1 and a scale. Boxes, cylinders, rings and prisms are scaled along
-  and across their axis, others by one factor; all the same ratios, segments and caps.
-- Geometry far from its origin, where single precision is coarser than the tolerance, is moved to the origin, and its
-  own Shape gets a Transform, too.
-- Not worth it: what saves less than `min-saving` bytes over all copies. A vertex is 24 bytes, an index 2, a Transform
-  150.
-- The DEF name of a geometry goes to the Transform. Shapes keep theirs, and groups stay as they are.
-- Left alone: what a ROUTE, a Script or an IS touches; geometry with baked light; textures that lie by the extent of
-  the geometry; Shapes that are held otherwise than by a group; bodies of prototypes.
+- Names are not needed, and faces, points and corners may be in any order, with shared or separate points. Meshes are
+  compared by properties that a motion does not change, and then vertex by vertex. Every corner must be within
+  `tolerance` at its largest place; colours must be equal, normals within 0.3 degrees, texture coordinates within
+  0.00001. ccw, solid, convex and creaseAngle must agree. `axis` finds only copies with their corners in the same order,
+  and needs normals in the file or a creaseAngle of 0.
+- In a mirror image the faces are wound the other way. A scale with a negative factor turns them back.
+- `forms`: a pipe becomes a cylinder of radius and height 1 with a scale. Boxes, cylinders, rings and prisms are scaled
+  along and across their axis, other forms by one factor. Ratios, segments and caps must be the same.
+- Geometry so far from its origin that single precision is coarser than the tolerance is moved to the origin, and its
+  own Shape gets a Transform as well.
+- A group of equal parts is shared only if that saves at least `min-saving` bytes. A vertex counts as 24 bytes, an index
+  as 2, a Transform as 150.
+- The DEF name of a geometry moves to the Transform. Shapes and groups keep theirs.
+- Left unchanged: nodes that a ROUTE, Script or IS uses; geometry with baked light; textures that are mapped by the
+  extent of the geometry; Shapes that are not children of a group; bodies of prototypes.
 
-Run `weld`, and for one Shape a face `join`, before it. Names that go are reported (names-lost). Expected linear in the
+Run `weld` first and, if each face is a Shape, `join`. Lost names are reported (names-lost). Cost: usually linear in the
 corners, n log n where copies differ in their order.)";
   static constexpr StatisticInfo statistics[] = {
-      {"instance.groups", "geometries that are shared now"},
-      {"instance.copies", "geometries that are no more"},
-      {"instance.forms", "of those, forms"},
+      {"instance.groups", "geometries that are now shared"},
+      {"instance.copies", "geometries that were replaced by a shared one"},
+      {"instance.forms", "forms among them"},
       {"instance.draws-before", "Shapes drawn before the pass"},
       {"instance.draws-after", "Shapes drawn after the pass"},
       {"instance.nodes-before", "nodes before the pass"},
@@ -64,7 +64,7 @@ corners, n log n where copies differ in their order.)";
   int form_places = 0;
 
   void fields(auto&& f) {
-    f("tolerance", tolerance, "maximum distance of a point from where it was, in metres", at_least(0));
+    f("tolerance", tolerance, "maximum distance of a point from where it was", a_length());
     f("scaling", scaling, "scaling of copies");
     f("mirror", mirror, "also mirror images, by a negative scale, which VRML97 does not allow");
     f("named", named, "also geometry whose Coordinate or the like has a DEF name, which is lost");

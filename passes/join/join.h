@@ -6,9 +6,8 @@ namespace wrlkit {
 
 struct JoinOptions {
   static constexpr std::string_view doc = R"(
-One Shape for what an exporter wrote as many. CAD systems write a Shape for each face, thousands of which re-use one
-Appearance and one big Coordinate; every one of them is a draw call, and no pass that works on a mesh sees more than a
-face.
+Joins Shapes that look the same. CAD systems often write one Shape per face, thousands of them with the same Appearance
+and one big Coordinate. Each is a draw call, and passes that work on a mesh see only a single face.
 
     before   Group { children [
                Shape { appearance DEF Steel Appearance { ... }
@@ -18,24 +17,24 @@ face.
                Shape { appearance DEF Steel Appearance { ... }
                        geometry IndexedFaceSet { coord DEF All Coordinate { ... } coordIndex [ 0 1 2 -1 2 1 3 -1 ] } } }
 
-Joins Shapes that are children of one grouping node, or stand at the top of the file, if
-- their Appearances are the same node or say the same;
-- their geometries are all IndexedFaceSet, all IndexedLineSet or all PointSet, agree in ccw, solid, convex and
-  creaseAngle, and have the same of colours, normals and texture coordinates;
-- Shape and geometry are used in one place, have no DEF name, and neither they nor what they hold are touched by a
-  ROUTE, a Script, a prototype instance or an IS;
-- a texture does not lie on them by default coordinates, which depend on the extent of the geometry.
+Shapes in the same group, or at the top of the file, are joined if
+- their Appearances are the same node or have the same values;
+- their geometries are all IndexedFaceSet, all IndexedLineSet or all PointSet, with the same ccw, solid, convex and
+  creaseAngle, and all have or all lack colours, normals and texture coordinates;
+- Shape and geometry have one use and no DEF name, and no ROUTE, Script, prototype instance or IS reaches them or their
+  contents;
+- no texture is mapped by the default coordinates, which depend on the extent of the geometry.
 
-The first of them becomes the joined one, in its place among the children. A Coordinate with a name, or one that is
-used several times, stays the node that it is: Shapes that share it are joined among themselves, and not a point is
-copied. Of other points, and of colours, normals and texture coordinates, those in use are put behind one another, and
-the names of nodes that held the latter are lost. Values that are equal are left for `weld`.
+The joined Shape takes the place of the first one. A Coordinate that has a name or several uses stays: the Shapes that
+share it are joined with each other, and no point is copied. Other points, colours, normals and texture coordinates are
+concatenated; values that are not used are left out, and names of the concatenated nodes are lost. Equal values are left
+to `weld`.
 
-Children of Switch and LOD are alternatives and stay apart. Leaves empty groups as they were, and nodes that nobody
-holds any more. Faces that share a Coordinate are neighbours when they are joined, and smooth if creaseAngle says so.
-Linear in nodes and in the indices of what is joined.)";
+Children of a Switch or LOD are alternatives and are not joined. Groups that become empty stay, and so do nodes that are
+no longer used. Joined faces that share a Coordinate are neighbours, and are shaded smoothly if creaseAngle says so.
+Cost: linear in the nodes and in the joined indices.)";
   static constexpr StatisticInfo statistics[] = {
-      {"join.shapes", "how many Shapes fewer there are"},
+      {"join.shapes", "Shapes saved"},
       {"join.draws-before", "Shapes drawn before the pass"},
       {"join.draws-after", "Shapes drawn after the pass"},
       {"join.nodes-before", "nodes before the pass"},

@@ -6,13 +6,15 @@ namespace wrlkit {
 
 struct KeepColorsOptions {
   static constexpr std::string_view doc = R"(
-What X3D 4.0 would show in other colours. It multiplies a picture in colour by the colour below it; VRML97 and X3D
-before show the picture. Where the writer of X3D needs version 4.0 for a world of theirs, the Materials below such
-pictures become white, on copies where they have other uses. What they said is reported (no-x3d-color). Does nothing
-to other worlds, so it belongs to every way to X3D. Vertex colours below a picture stay, and are multiplied. O(scene).
+Keeps pictures from being tinted when a scene is written as X3D 4.0.
 
-    Appearance { material Material { diffuseColor 1 0 0 } texture ImageTexture { url "bricks.jpg" } }
-    Appearance { material Material { diffuseColor 1 1 1 } texture ImageTexture { url "bricks.jpg" } })";
+    before   Appearance { material Material { diffuseColor 1 0 0 } texture ImageTexture { url "bricks.jpg" } }
+    after    Appearance { material Material { diffuseColor 1 1 1 } texture ImageTexture { url "bricks.jpg" } }
+
+X3D 4.0 multiplies a colour picture by the material's colour. In VRML97 and earlier X3D the picture replaces the colour.
+If such a scene has to be written as version 4.0, Materials below colour pictures become white. A Material with other
+uses is copied first. The old colour is reported (no-x3d-color). Vertex colours below a picture stay and are multiplied.
+Other scenes do not change, so the pass runs for all X3D output. Cost: O(scene).)";
 
   void fields(auto&&) {}
 };

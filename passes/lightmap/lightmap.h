@@ -40,7 +40,7 @@ inline constexpr auto choices<UnlitSurfaces> = choice_row({{"bake"}, {"keep"}});
 
 struct LightmapOptions {
   static constexpr std::string_view doc = R"(
-Computes the light in the world and puts it onto its surfaces, as textures (Lazanyi, section 3).
+Computes the light in the scene and stores it on the surfaces, as textures (Lazanyi, section 3).
 
     before   PointLight { ... }
              DEF Wall Shape { appearance Appearance { material Material { ... } } geometry Box { ... } }
@@ -49,63 +49,60 @@ Computes the light in the world and puts it onto its surfaces, as textures (Laza
                                                       lightmap ImageTexture { url "lightmap_0.png" } }
                               geometry IndexedFaceSet { ... lightCoord TextureCoordinate { ... } } }
 
-The surface keeps its own colour and texture; what VRML97 can say, one texture, is made of both by `combine-lightmap`.
+The surface keeps its colour and texture. For VRML97, which has one texture per Shape, `combine-lightmap` makes one
+texture of both. docs/lighting.md describes how light, materials and units are interpreted.
 
-Lights every surface that a browser would show, as it stands at the start.
+Every surface that a browser would show at the start is lit.
 
-- The world as light sees it, in which units, is in docs/lighting.md.
-- Each place of a Shape gets light of its own: what is shared by USE is copied down to the Shape, geometry stays
-  shared among those that show it in one size and density. What events can reach is not copied: it has the light of
-  its first place.
-- Geometry becomes an IndexedFaceSet of triangles. Where `solid` is FALSE and the surface is open, both sides get
-  faces.
-- Further levels of a LOD have the light of the nearest place of the first one. Where that is far away, and with
-  `directional`, it is computed, where all LODs show that level, or their last. Half the texels a level. LODs within
-  levels have light at all of theirs, too: as many views are lit as there are levels one behind the
-  other, 64 at the most.
-- Text becomes faces, too, unless events, a Script or a prototype may write it.
-- Shapes without a Material, which browsers show at full brightness, get light, too, where the world has lamps: their
-  picture or colour is what they reflect, and they get a white Material. That is reported (unlit-lit). Not those that
-  hang before the viewer, show films or are changed by events; `unlit=keep` leaves all as they are.
-- Left alone: UnlitMaterial, lines, points, other choices of a Switch.
-- With `patches` each Shape gets a picture of its own, in which its flat polygons lie; of the other options only
-  `smooth` and `format` count. Shapes show their first level of detail only; further ones stay without light.
-- What stands behind Inline or in prototypes is not looked into: run `expand` before. Nor is a Shape whose geometry
-  events change or contains unknown nodes. All that is reported (not-lit).
-- There are at most 2^28 texels in all, and a Shape's fit on a page; so a great density may be out of reach
-  (density-limit).
-- `lamps=inverse-square` is for worlds that are dark because radii and attenuations are small, or that are lit evenly as
-  those are large: the lamp is as strong as it was written at the root mean square distance of what it shines at, or at
-  its radius if that is less.
-- `exposure=auto` brings the logarithmic mean of the light to 0.36, so that what reflects a half of it shows as middle
-  grey. The factor is reported (light-exposure), counted (`--stats`) and kept as a line of the WorldInfo,
-  "lightmap exposure 3.42". Dividing lightmapScale by it undoes it.
-- `budget=60s` chooses the size of pages and the rays a point that take about that long on this machine, writing not
-  counted: the time of a clock, as somebody waits for it. With `error` it is a limit to the rays. What was chosen is
-  counted (`--stats`) and kept as a line of the WorldInfo, "lightmap budget max-size=1024,rays=24": with these options
-  instead the light is the same on every machine. It makes nothing faster that has to be done anyway: charts, levels of
-  detail.
-- A world without any light, or with too little to see it by, is lit by a white sky, which is reported (no-light).
+- Each place of a Shape gets light of its own. Shared nodes are copied down to the Shape; geometry stays shared among
+  places with the same size and density. Nodes that events can reach are not copied and have the light of their first
+  place.
+- Geometry becomes an IndexedFaceSet of triangles. If `solid` is FALSE and the surface is open, both sides become faces.
+- Further levels of a LOD take the light of the nearest place of the first level. If that is too far away, and with
+  `directional`, light is computed while all LODs show that level, or their last one. Each level has half as many texels
+  as the one before. LODs within levels are lit at all their levels, one view after the other, with at most 64 views.
+- Text becomes faces, unless events, a Script or a prototype may write it.
+- Shapes without a Material, which browsers show at full brightness, are lit as well if the scene has lights. Their
+  picture or colour becomes what they reflect, and they get a white Material. This is reported (unlit-lit). Shapes that
+  move with the viewer, show films or are changed by events are left out. `unlit=keep` leaves all of them unlit.
+- Left unchanged: UnlitMaterial, lines, points, and children that a Switch does not show.
+- With `patches`, each Shape gets a picture of its own that contains its flat polygons. Of the other options, only
+  `smooth` and `format` apply. Only the first level of detail of a Shape is lit.
+- Contents of Inlines and prototypes are not lit: run `expand` first. Shapes whose geometry events change, or contains
+  unknown nodes, are not lit either. Both are reported (not-lit).
+- There are at most 2^28 texels in total, and all texels of a Shape are on one page. A high density may therefore be out
+  of reach (density-limit).
+- `lamps=inverse-square` is for scenes that are dark because radii are small, or evenly lit because attenuations are
+  constant. A lamp has the strength that was written at the root mean square distance of the surfaces it shines at, or
+  at its radius if that is smaller.
+- `exposure=auto` makes the logarithmic mean of the light 0.36: a surface that reflects half of it shows as middle grey.
+  The factor is reported (light-exposure), counted (`--stats`) and stored as a line of the WorldInfo, "lightmap exposure
+  3.42". Divide lightmapScale by the factor to undo it.
+- `budget=60s` chooses the page size and the rays per point that take about that long on this machine, in wall-clock
+  time without writing. With `error` it limits the number of rays. The choice is counted (`--stats`) and stored as a
+  line of the WorldInfo, "lightmap budget max-size=1024,rays=24"; these options give the same light on every machine.
+  Work that does not depend on them, such as charts and levels of detail, takes as long as before.
+- A scene without lights, or with too little light, is lit by a white sky. This is reported (no-light).
 
-Needs resources, which take the pictures. O(texels * rays * log triangles). The same result for any number of
-threads.)";
+The pictures need resources to be stored in. Cost: O(texels * rays * log triangles). The result is the same for any
+number of threads.)";
   static constexpr StatisticInfo statistics[] = {
-      {"lightmap.shapes", "Shapes that have light"},
+      {"lightmap.shapes", "Shapes with baked light"},
       {"lightmap.charts", "pieces of surface on the pages"},
-      {"lightmap.pages", "pictures"},
+      {"lightmap.pages", "pages (pictures)"},
       {"lightmap.texels", "texels of surface"},
       {"lightmap.samples", "texels that were computed"},
       {"lightmap.rays", "rays that were traced"},
-      {"lightmap.inherited", "texels of further levels of detail that have the light of the first one"},
-      {"lightmap.inside", "texels inside of something solid"},
+      {"lightmap.inherited", "texels of further levels of detail that take their light from the first level"},
+      {"lightmap.inside", "texels inside solids"},
       {"lightmap.leaks", "texels through which light could leak"},
-      {"lightmap.black", "texels without any light"},
-      {"lightmap.holes", "specks of dark texels"},
-      {"lightmap.seam-places", "places along seams that were compared"},
-      {"lightmap.jumps", "those where the light jumps"},
-      {"lightmap.exposure-thousandths", "factor on the light, by exposure=auto"},
-      {"lightmap.page-side", "texels along each side of a page, by budget"},
-      {"lightmap.rays-a-point", "rays of a point, by budget"},
+      {"lightmap.black", "texels without light"},
+      {"lightmap.holes", "isolated dark texels"},
+      {"lightmap.seam-places", "points compared along seams"},
+      {"lightmap.jumps", "points along seams where the light jumps"},
+      {"lightmap.exposure-thousandths", "factor found by exposure=auto, in thousandths"},
+      {"lightmap.page-side", "texels along each side of a page, chosen by budget"},
+      {"lightmap.rays-a-point", "rays per point, chosen by budget"},
       {"lightmap.patches", "patches that were drawn"},
       {"lightmap.orphans", "patches without a Shape"},
       {"lightmap.bare-triangles", "triangles without a patch"},

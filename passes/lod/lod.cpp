@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -13,6 +14,7 @@
 #include "geometry/simplify/shared_borders.h"
 #include "geometry/simplify/world_levels.h"
 #include "passes/lod/cell_lods.h"
+#include "passes/pipeline/length_option.h"
 
 namespace wrlkit {
 namespace {
@@ -164,6 +166,19 @@ Outcome lods_of_world(Scene& scene, const LodOptions& options, PassContext& ctx)
 
 }  // namespace
 
+namespace {
+
+std::string with_colons(const std::vector<double>& values) {
+  std::string out;
+  for (double v : values) {
+    if (!out.empty()) out += ':';
+    out += shortest_text(v);
+  }
+  return out;
+}
+
+}  // namespace
+
 bool NumberList::read(std::string_view text) {
   values.clear();
   while (!text.empty()) {
@@ -174,6 +189,7 @@ bool NumberList::read(std::string_view text) {
     const bool percent = text.starts_with('%');
     text.remove_prefix(percent ? 1 : 0);
     values.push_back(percent ? v / 100 : v);
+    if (values.back() > 1) return false;
     if (text.empty()) break;
     if (text[0] != ':') return false;
     text.remove_prefix(1);
@@ -181,14 +197,21 @@ bool NumberList::read(std::string_view text) {
   return true;
 }
 
-std::string NumberList::print() const {
-  std::string out;
-  for (double v : values) {
-    if (!out.empty()) out += ':';
-    out += shortest_text(v);
+std::string NumberList::print() const { return with_colons(values); }
+
+bool LengthList::read(std::string_view text) {
+  values.clear();
+  while (!text.empty()) {
+    const auto end = std::min(text.find(':'), text.size());
+    LengthOption length;
+    if (!length.read(text.substr(0, end)) || !(length.metres > 0)) return false;
+    values.push_back(length.metres);
+    text.remove_prefix(std::min(end + 1, text.size()));
   }
-  return out;
+  return true;
 }
+
+std::string LengthList::print() const { return with_colons(values); }
 
 Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) {
   return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_world(scene, options, ctx);

@@ -7,7 +7,7 @@ namespace wrlkit {
 
 struct LowerVrml1Options {
   static constexpr std::string_view doc = R"(
-A world of VRML 1.0 or Inventor in the nodes of VRML97.
+Converts VRML 1.0 and Inventor to the nodes of VRML97.
 
     before   Separator { Material { diffuseColor 1 0 0 } Cube { } Translation { translation 3 0 0 } Sphere { } }
     after    Group { children [
@@ -15,24 +15,26 @@ A world of VRML 1.0 or Inventor in the nodes of VRML97.
                Transform { translation 3 0 0 children
                  Shape { appearance Appearance { material USE Red } geometry Sphere { } } } ] }
 
-VRML 1.0 is a program for a machine with a state: a node changes the state for all that follows, out of a Group but
-not out of a Separator. The pass runs that program and writes down what is drawn. Groups stay groups, a run of nodes
-at one place is below one Transform, and what is drawn again in the same state is one node with several uses: a
-Separator that comes a thousand times is there once, and a Coordinate3 is one Coordinate however many shapes it is in.
-DEF names go along.
+In VRML 1.0 a node changes a traversal state, which applies to everything that follows. The state leaves a Group but not
+a Separator. The pass traverses the scene and writes down what is drawn. Groups stay groups, and successive
+transformations become one Transform. Whatever is drawn again in the same state becomes one node with several uses: a
+Separator that is used a thousand times is stored once, and so is a Coordinate3 that several shapes use. DEF names are
+kept.
 
-What VRML97 cannot say is reported as lost. What it says in another way:
-- materials by part or face: a Color node, or one Shape for each kind where they differ in more than diffuse colour;
-- transformations that one Transform cannot say as they were written: its fields from their matrix;
-- light on what follows: a DirectionalLight begins a Group of its own behind what it does not reach;
-- a Switch with the name Cameras, Info with the names Title, Viewer and BackgroundColor: Viewpoints, WorldInfo,
-  NavigationInfo and Background, as browsers of the time took them;
-- a node that describes itself (`isA`) and is not known: the first of its bases that is;
-- a ClipPlane: that of X3D, which `lower-x3d` cuts with.
+What VRML97 cannot express is reported as lost. Some things are expressed in another way:
+- Materials per part or per face become a Color node, or a Shape for each material if they differ in more than the
+  diffuse colour.
+- Transformations that one Transform cannot hold as they were written become the fields of a Transform with the same
+  matrix.
+- A light applies to what follows it. Its DirectionalLight therefore starts a Group of its own.
+- A Switch named Cameras, and Info nodes named Title, Viewer and BackgroundColor, become Viewpoints, WorldInfo,
+  NavigationInfo and Background, as browsers of the time treated them.
+- An unknown node that declares its base types (`isA`) becomes the first base that is known.
+- A ClipPlane becomes X3D's ClipPlane, which `lower-x3d` applies.
 
-Nodes of VRML 1.0 in a world of VRML97, as programs write that build on Coin, become nodes of VRML97 in the same
-way; groups of VRML97 keep the state in, as Separator does. Other worlds are left alone. Linear in the file and in
-what it draws; nodes that are used in ever other states are limited like the copies of expand-protos.)";
+Nodes of VRML 1.0 in a VRML97 file, which programs based on Coin write, are converted in the same way. There, groups of
+VRML97 restore the state, as Separator does. Other scenes do not change. Cost: linear in the file and in what it draws.
+A node that is visited again and again in different states counts against `limit`.)";
 
   int limit = 500'000;
   void fields(auto&& f) {

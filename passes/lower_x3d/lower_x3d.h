@@ -7,37 +7,41 @@ namespace wrlkit {
 
 struct LowerX3dOptions {
   static constexpr std::string_view doc = R"(
-Nodes that only X3D has become those of VRML97 that mean the same, so that every other pass and writer has one
-vocabulary.
+Converts nodes that only X3D has to VRML97 nodes with the same meaning, so that other passes and writers need to handle
+one vocabulary only.
 
     IndexedTriangleSet { index [ 0 1 2 ] ... }   ->   IndexedFaceSet { coordIndex [ 0 1 2 -1 ] ... }
     CADPart { name "bolt" children ... }         ->   DEF bolt Transform { children ... }
 
-Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet, Geometry2D these with 64 sides to a circle;
-StaticGroup, CAD nodes, layers, ViewpointGroup and the nodes of humanoids (H-Anim, as they stand) become groups;
-X3DOM's shapes of plants (Snout, Dish, Torus, ...) become forms, as `recognise` finds them;
-what is not `visible`, and faces that are neither filled nor hatched, stand in a Switch that shows nothing; the
-pictures of a MultiTexture become one, or the first stays; faces that look otherwise from behind (TwoSidedMaterial,
-backMaterial) become two Shapes, of other geometry the front stays. A ParticleSystem becomes its particles as they
-stand in its first second; texture coordinates of three and four numbers become those of flat pictures.
-What a ClipPlane hides is cut off. NURBS become triangles and lines within `tolerance`, trimmed along their
-contours, NurbsSweptSurface an Extrusion, interpolators along curves those along lines, with more keys; places on
-Earth become metres around the scene's GeoOrigin, or around the first place where there is none, with Y up there and
-X east. Worlds without such nodes stay as they are. O(scene).
+- Triangle, quad and line sets become IndexedFaceSet and IndexedLineSet. So does Geometry2D, with 64 sides to a circle.
+- StaticGroup, CAD nodes, layers, ViewpointGroup and H-Anim nodes, in the pose of the file, become groups.
+- X3DOM's plant shapes (Snout, Dish, Torus, ...) become the forms that `recognise` uses.
+- Nodes that are not `visible`, and faces that are neither filled nor hatched, move into a Switch that shows nothing.
+- The pictures of a MultiTexture are combined into one; otherwise the first one stays.
+- Faces with a different back (TwoSidedMaterial, backMaterial) become two Shapes. Other geometry keeps its front only.
+- A ParticleSystem becomes its particles as they are in the first second.
+- Texture coordinates of three and four numbers become those of flat pictures.
+- What a ClipPlane hides is cut off.
+- NURBS become triangles and lines within `tolerance`, trimmed along their contours. A NurbsSweptSurface becomes an
+  Extrusion. Interpolators along curves become linear ones with more keys.
+- Positions on the Earth become metres around the scene's GeoOrigin, or else around the first position, with Y up and X
+  east.
 
-With `materials` the first three of these, with `vrml97` everything else that VRML97 cannot say is turned into what
-comes near to it, or dropped, and reported:
+Scenes without such nodes do not change. Cost: O(scene).
+
+`materials` also converts the first three nodes below. `vrml97` converts everything else that VRML97 cannot express to
+something similar, or drops and reports it:
 
     PhysicalMaterial, of base colour b, metallic m and roughness r   ->   Material
       diffuseColor b (1 - m/2)   specularColor (0.04 (1 - m) + b m) (1 - r)   shininess (2/r^4 - 2) / 128, from 0 to 1
-    UnlitMaterial      ->   Material of that emissiveColor, black else; none at all where it is opaque and white, or
-                           where the geometry has colours
-    OrthoViewpoint     ->   Viewpoint that sees the same height at centerOfRotation
+    UnlitMaterial      ->   black Material with that emissiveColor; no Material if it is opaque and white, or if the
+                           geometry has colours
+    OrthoViewpoint     ->   Viewpoint that shows the same height at centerOfRotation
     ColorRGBA          ->   Color
 
-Light is computed from the colours of X3D: a picture times a colour, which VRML97 cannot say, a baked picture can. So
-`vrml97` with `defer-colors` stops before materials, fields and nodes that VRML97 does not have; a second
-lower-x3d{vrml97=true} behind combine-lightmap does the rest.)";
+Light must be computed from X3D's colours: a baked picture can contain a picture times a colour, which VRML97 cannot
+express otherwise. `vrml97` with `defer-colors` therefore leaves materials, and fields and nodes that VRML97 lacks, to a
+second lower-x3d{vrml97=true} after combine-lightmap.)";
 
   bool materials = false;
   bool vrml97 = false;
@@ -48,8 +52,8 @@ lower-x3d{vrml97=true} behind combine-lightmap does the rest.)";
     f("vrml97", vrml97, "convert everything that VRML97 cannot express");
     f("defer-colors", defer_colors,
       "with vrml97: only geometry and groups; leave the rest to a second lower-x3d after the light");
-    f("tolerance", tolerance,
-      "maximum distance of triangles and lines from NURBS, in metres; 0: a thousandth of their size", at_least(0));
+    f("tolerance", tolerance, "maximum distance of triangles and lines from NURBS; 0: a thousandth of their size",
+      a_length());
   }
 };
 Outcome lower_x3d(Scene&, const LowerX3dOptions&, PassContext&);

@@ -11,8 +11,7 @@ namespace wrlkit {
 
 struct MergeOptions {
   static constexpr std::string_view doc = R"(
-Few draw calls out of many: Shapes that look the same become one, wherever they stand, and each part can still be
-found by its name.
+Reduces draw calls: merges Shapes that look the same, wherever they are. Each part can still be found by its name.
 
     before   DEF Unit Transform { translation 5 0 0 children [
                DEF Pump Shape { appearance DEF Steel ... geometry Box {} }
@@ -20,39 +19,38 @@ found by its name.
     after    Shape { appearance DEF Steel ... geometry IndexedFaceSet { ...
                metadata MetadataSet { ... "Unit/Pump" "Unit/Tank" ... } } }     # features.h
 
-Merges Shapes that are still and have equal Appearances into meshes in the coordinates of the world, until no more
-than `max-draws` are drawn. Nothing happens where there are few enough already.
+Shapes that do not move and have equal Appearances are merged into meshes in world coordinates, until at most
+`max-draws` are left. If there are no more than that, nothing changes.
 
-- Which Shapes go together is decided by where they stand: each appearance begins as one cell, and as long as there
-  may be more draws, the cell with the most vertices is halved, across its longest side. So large parts stay by
-  themselves, as they are, and shared.
-- A geometry that is shown often is there once for each place when it is merged. Where the writer makes tables of
-  places, `instanced` leaves Shapes of one geometry and appearance as they are if that takes less space: some 600
-  bytes and 10 a place, against 8 for each point and 0.7 for each corner of each copy. All of them are one draw then,
-  but for places that are mirrored or skewed, which stay by themselves. The rest is merged however few there are,
-  unless a table in another look has the same geometry and a cell would take more; and cells are only halved above
-  50,000 corners: each one takes space, too.
-- `parts` asks for something else: no Shape with a name is merged, nothing is taken out of a group with a name, and
-  there are no feature ids. What is merged are Shapes that nobody could tell apart by name, where their nodes and
-  meshes would take more space than their vertices do once more: 65 bytes a node, 280 a mesh. Geometries go together
-  that have the same name, or none, as their Coordinates do.
-- Each part keeps its name: the DEF names from the root to the Shape, and to its geometry if the Shape has none or is
-  the first with it, as in "Unit/Pump". Where two parts have one name they are numbered ("Bolt#2"). glTF has a feature
-  id for each corner (EXT_mesh_features) and the table in extras; X3D has it as metadata; VRML97 cannot say it, which
-  is reported then. Names of what is merged and of the groups that are left without anything in them are only there,
-  and names of Coordinates and the like as parts without faces.
-- What is drawn does not change: normals are computed before, texture coordinates by the extent of a geometry too, and
-  curved forms get their faces as by `tessellate` with the same `tolerance` and `segments`.
-- Not merged across: Anchor, Billboard, Collision, each child of Switch and LOD, groups with sensors or lights of
-  their own, and what a ROUTE moves; below each of them it is merged. Left alone: Shapes that a ROUTE, a Script or an
-  IS touches, and all below nodes that are not known; geometry with baked light or levels of detail in its own file;
-  prototypes.
+- Shapes are grouped by position. Each appearance begins as one cell. While more draw calls are allowed, the cell with
+  the most vertices is halved across its longest side. Large parts therefore stay separate, unchanged and shared.
+- Merging copies shared geometry to every place. If the writer makes tables of places, `instanced` keeps Shapes with one
+  geometry and appearance as they are where that takes less space: about 600 bytes plus 10 per place, compared with 8
+  for each point and 0.7 for each corner of every copy. They then take one draw call together, except for mirrored or
+  skewed places, which stay separate. The rest is merged even if there are few Shapes, unless a table of another
+  appearance uses the same geometry and a cell would be larger. Cells are halved only above 50,000 corners, because each
+  cell takes space as well.
+- `parts` merges less: no Shape with a name, nothing out of a named group, and no feature ids are made. It merges Shapes
+  that cannot be told apart by name where their nodes and meshes take more space than another copy of their vertices: 65
+  bytes per node and 280 per mesh. Only geometries with the same name, or none, are merged, and the same holds for their
+  Coordinates.
+- Each part keeps its name: the DEF names from the root to the Shape. If the Shape has none, or is the first use of its
+  geometry, the name of the geometry follows, as in "Unit/Pump". Equal names are numbered ("Bolt#2"). glTF stores a
+  feature id for each corner (EXT_mesh_features) and the table of names in extras, X3D stores metadata. VRML97 cannot
+  store the names, which is reported. Names of merged nodes, and of groups that become empty, exist only in this table.
+  Names of Coordinates and the like are in it as parts without faces.
+- The scene looks the same. Normals and default texture coordinates are computed first, and curved forms become faces as
+  by `tessellate` with the same `tolerance` and `segments`.
+- Not merged across: Anchor, Billboard, Collision, each child of a Switch or LOD, groups with sensors or lights of their
+  own, and nodes that a ROUTE moves. Shapes below each of these are merged with each other. Left unchanged: Shapes that
+  a ROUTE, Script or IS uses; everything below unknown nodes; geometry with baked light or with levels of detail in the
+  file; prototypes.
 
-Passes behind it that change faces lose the parts: run `weld`, `lod` and `cull` before. n log n in the Shapes, linear
-in what is merged, which is there once for each place.)";
+Later passes that change faces lose the parts: run `weld`, `lod` and `cull` first. Cost: n log n in the Shapes, linear
+in the merged geometry, which is stored once for each place.)";
   static constexpr StatisticInfo statistics[] = {
-      {"merge.parts", "parts that keep a name"},
-      {"merge.shapes", "Shapes that were made"},
+      {"merge.parts", "parts that can still be found by name"},
+      {"merge.shapes", "merged Shapes"},
       {"merge.draws-before", "Shapes drawn before the pass"},
       {"merge.draws-after", "Shapes drawn after the pass"},
       {"merge.nodes-before", "nodes before the pass"},

@@ -7,6 +7,7 @@
 #include "base/math/digits.h"
 #include "base/option_range.h"
 #include "base/text/nearest_name.h"
+#include "passes/pipeline/length_option.h"
 #include "passes/pipeline/pipeline.h"
 #include "passes/pipeline/written_file.h"
 
@@ -82,10 +83,24 @@ template <class T>
 requires requires(T& v) { v.read(std::string_view{}); }
 bool read(std::string_view s, T& v) { return v.read(s); }
 
+/// A number that is a length may have a unit.
+template <class T>
+bool read_in(std::string_view s, T& v, OptionRange r) {
+  if constexpr (std::is_same_v<T, double>)
+    if (r.is_length) {
+      LengthOption length;
+      const bool good = length.read(s);
+      v = length.metres;
+      return good;
+    }
+  return read(s, v) && in_range(v, r);
+}
+
 template <class T>
 OptionInfo describe(std::string_view name, const T& value, std::string_view help, OptionRange range) {
   std::string more(help);
   if constexpr (Choice<T>) more = choice_help<T>(help);
+  if (range.is_length) return {std::string(name), std::string(LengthOption::type), print(value), std::move(more), {}};
   return {std::string(name), std::string(type_name(value)), print(value), std::move(more), print(range)};
 }
 
@@ -128,7 +143,7 @@ class PassOf final : public PassInstance {
       found = true;
       auto given = field;
       why.clear();
-      if (option_text::read(value, given) && option_text::in_range(given, range)) {
+      if (option_text::read_in(value, given, range)) {
         if constexpr (requires { why_missing(given); }) why = why_missing(given);
         if (why.empty()) field = std::move(given);
         return;
@@ -136,6 +151,12 @@ class PassOf final : public PassInstance {
       why = "option '" + std::string(option) + "': '" + std::string(value) +
             "' is not a valid value: " + option_text::describe(name, field, help, range).type_and_range();
       if constexpr (requires { given.examples; }) why += ", as " + std::string(given.examples);
+      if (range.is_length) why += ", as " + std::string(length_examples);
+      if constexpr (Choice<std::remove_cvref_t<decltype(field)>>) {
+        NearestName word(value);
+        for (const auto& choice : choices<std::remove_cvref_t<decltype(field)>>) word.consider(choice.name);
+        why += word.question();
+      }
       if constexpr (requires { field.fault(value); })
         if (const auto fault = field.fault(value); !fault.empty())
           why = "option '" + std::string(option) + "': " + fault;

@@ -69,7 +69,10 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
       if (item.empty() || item.find('=') != item.npos || has_option(pass, item)) break;
       (value += ':') += item;
     }
-    if (!pass.set(name, value, why)) return false;
+    if (!pass.set(name, value, why)) {
+      if (value.find(';') != value.npos) why += "; commas separate options: {a=1,b=2}";
+      return false;
+    }
   }
   return true;
 }
@@ -78,7 +81,11 @@ std::string no_such_pass(std::string_view name) {
   std::string out = "there is no pass '" + std::string(name) + "'";
   const auto first = name.substr(0, name.find(' '));
   if (first != name && find_pass(first)) return out + "; commas separate passes: weld,lod";
-  return out + pass_question(name);
+  const auto front = name.substr(0, name.find_first_of("([<:="));
+  if (front != name && find_pass(front))
+    return out + "; options are in braces: " + std::string(front) + "{option=value,option=value}";
+  const auto question = pass_question(name);
+  return out + (question.empty() ? "; wrlkit passes lists them" : question);
 }
 
 }  // namespace

@@ -15,12 +15,13 @@ inline constexpr auto choices<UpAxis> = choice_row({{"y"}, {"z"}, {"x"}});
 
 struct PlaceOptions {
   static constexpr std::string_view doc =
-      R"(The world is put below a Transform that scales it to metres and turns it Y up.
+      R"(
+Puts the scene below a Transform that scales it to metres and turns it so that Y points up.
 
     before   Shape { geometry Box { size 250 250 40 } }     # millimetres, Z up
     after    Transform { rotation 1 0 0 -1.5708 scale 0.001 0.001 0.001 children Shape { ... } }
 
-What `--unit` and `--up` put in front of a pipeline. Cost: constant.)";
+`--unit` and `--up` put this pass first in every pipeline. Cost: constant.)";
 
   Unit unit = Unit::m;
   UpAxis up = UpAxis::y;

@@ -6,13 +6,13 @@ namespace wrlkit {
 
 struct PruneOptions {
   static constexpr std::string_view doc = R"(
-What has no effect goes: Shapes without geometry, grouping nodes without children that nobody can name, and ROUTEs
-from or to nodes that are not in the scene any more, with their IMPORTs and EXPORTs.
+Removes nodes without effect: Shapes without geometry, unnamed groups without children, and ROUTEs, IMPORTs and EXPORTs
+that refer to nodes which are no longer in the scene.
 
     Group { children [ Shape { } Group { } DEF A Group { } ] }   ->   Group { children DEF A Group { } }
 
-Nodes with a DEF name stay, so does everything that a ROUTE touches and everything below a Switch or LOD, whose
-children are counted. Cost: linear.)";
+Nodes with a DEF name stay. So do nodes that a ROUTE uses, and children of a Switch or LOD, which are addressed by
+number. Cost: linear.)";
 
   void fields(auto&&) {}
 };

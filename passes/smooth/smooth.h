@@ -11,15 +11,16 @@ namespace wrlkit {
 
 struct SmoothOptions {
   static constexpr std::string_view doc =
-      R"(Each point moves half way to the mean of its neighbours, `iterations` times, by OpenMesh: for scans and
-other noisy surfaces. Points of borders stay where they are, and the faces stay those that they were.
+      R"(
+Smooths noisy surfaces such as scans. Each point moves half way towards the mean of its neighbours, `iterations` times,
+by OpenMesh. Points on borders stay, and faces keep their corners.
 
     before   a plane with points up to 0.1 off it
     after    the same faces, points nearer to the plane; its border as it was
 
-A surface that is not a manifold is reported and stays as it is; run `weld` before. Cost: faces * iterations.)";
+A surface that is not a manifold is reported and does not change: run `weld` first. Cost: faces * iterations.)";
   static constexpr StatisticInfo statistics[] = {
-      {"smooth.dropped-normals", "surfaces whose normals were dropped, since they were wrong behind it"},
+      {"smooth.dropped-normals", "surfaces whose normals were dropped because they no longer fit"},
   };
 
   int iterations = 10;

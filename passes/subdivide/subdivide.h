@@ -20,16 +20,18 @@ inline constexpr auto choices<SubdivisionScheme> = choice_row({{"loop", "triangl
 
 struct SubdivideOptions {
   static constexpr std::string_view doc =
-      R"(Coarse polygons become a smooth surface of more of them, by OpenMesh: Loop's scheme or Catmull and Clark's.
+      R"(
+Turns coarse polygons into a smooth surface with more of them, by the schemes of Loop or of Catmull and Clark, by
+OpenMesh.
 
     before   coordIndex [ 0 1 2 3 -1 ... ]                  a cube: 6 faces
-    after    coordIndex [ 8 0 11 20 -1 8 20 9 1 -1 ... ]    24 faces, 96 with levels=2, nearly a ball
+    after    coordIndex [ 8 0 11 20 -1 8 20 9 1 -1 ... ]    24 faces; with levels=2 there are 96, nearly a ball
 
-Colours and texture coordinates are interpolated, normals are dropped. A surface that is not a manifold is reported and
-stays as it is; run `weld` before. Cost: linear in the faces that come out.)";
+Colours and texture coordinates are interpolated; normals are dropped. A surface that is not a manifold is reported and
+does not change: run `weld` first. Cost: linear in the resulting faces.)";
   static constexpr StatisticInfo statistics[] = {
       {"subdivide.triangles", "triangles of all surfaces that were subdivided"},
-      {"subdivide.dropped-normals", "surfaces whose normals were dropped, since they were those of the coarse faces"},
+      {"subdivide.dropped-normals", "surfaces whose normals were dropped because they belonged to the coarse faces"},
   };
 
   SubdivisionScheme scheme = SubdivisionScheme::catmull_clark;

@@ -11,19 +11,21 @@ namespace wrlkit {
 
 struct SwitchOptions {
   static constexpr std::string_view doc =
-      R"(Chooses what Switch nodes show, by their names.
+      R"(
+Sets which child a Switch shows. Switches are chosen by name.
 
     before   DEF SW_BEAMS Switch { whichChoice -1 choice [ Group { } Shape { ... } ] }
     after    DEF SW_BEAMS Switch { whichChoice 1 choice [ Group { } Shape { ... } ] }      # switch{SW_*=1}
 
-`NAME=N` shows child N of every Switch of that name; N is -1 for none. A `*` in the name stands for any characters, a
-`?` for one; of several names that fit, the last one counts. `all` goes on to every Switch that shows nothing: its
-children become those of a Group, which it shows. What `--show-all` puts in
-front of a pipeline, or sets in the `switch` that it has. Steel models often hide all of their parts this way until a
-script switches them on.
+`NAME=N` shows child N of every Switch of that name; -1 shows none. In a name, `*` stands for any characters and `?` for
+one. If several names match a Switch, the last one counts.
+
+`all` is for every Switch that still shows nothing: its children are moved into a Group, which the Switch then shows.
+`--show-all` puts this pass first in the pipeline, or sets `all` if the pass is already there. Steel models often hide
+all their parts in Switches until a Script turns them on.
 
 Cost: O(nodes).)";
-  static constexpr StatisticInfo statistics[] = {{"switch.changed", "Switches that show something else"}};
+  static constexpr StatisticInfo statistics[] = {{"switch.changed", "Switches that show something else than before"}};
 
   bool all = false;
   std::vector<std::pair<std::string, int>> choices;  // by name or pattern

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/math/digits.h"
+#include "passes/pipeline/length_option.h"
 #include "passes/weld/scratch.h"
 
 namespace wrlkit {
@@ -200,7 +201,10 @@ bool WeldTolerance::read(std::string_view text) {
   automatic = text == "auto";
   length = 0;
   if (automatic) return true;
-  return read_number(text, length) && length >= 0 && std::isfinite(length);
+  LengthOption given;
+  if (!given.read(text)) return false;
+  length = given.metres;
+  return true;
 }
 
 std::string WeldTolerance::print() const { return automatic ? "auto" : shortest_text(length); }

@@ -9,7 +9,7 @@ namespace wrlkit {
 
 /// A length, or the keyword `auto`.
 struct WeldTolerance {
-  static constexpr std::string_view type = "number or auto";
+  static constexpr std::string_view type = "length or auto", examples = "0.5mm, 0.0005, auto";
   double length = 0;
   bool automatic = false;
 
@@ -19,64 +19,58 @@ struct WeldTolerance {
 
 struct WeldOptions {
   static constexpr std::string_view doc = R"(
-Topology recovery: from faces that have their points to themselves to faces that share them. Tessellators and CAD
-exporters write loose faces; whatever walks over a surface (smooth normals, simplification, unwrapping) needs to know
-which of them meet.
+Joins points that coincide, so that faces know their neighbours, and repairs the faces. Tessellators and CAD exporters
+write loose faces; smooth normals, simplification and unwrapping need to know which faces meet.
 
     before   coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0,  1 0 0, 1 1 0, 0 1 0 ] } coordIndex [ 0 1 2 -1 3 4 5 -1 ]
     after    coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0, 1 1 0 ] }                coordIndex [ 0 1 2 -1 1 3 2 -1 ]
 
-Then what is wrong with the faces that now meet is repaired, and counted in the statistics ("weld.flipped-faces").
+Points, normals, colours and texture coordinates are joined separately: two corners may share a point but differ in
+their texture coordinate. Seams therefore stay seams.
 
-Joins the points of job.mesh, and its normals, colours and texture coordinates, each by themselves: a corner may agree
-with its neighbour in one and not in the other, and what was a seam stays one.
+- By default only equal numbers are joined; -0 equals 0. Normals, colours and texture coordinates are always joined this
+  way.
+- With a tolerance, a point joins the first point within it that has not joined another one. No point moves farther than
+  the tolerance, and the remaining points are farther apart than that. The tolerance is in the coordinates of the
+  geometry: metres, unless a Transform above scales them.
+- `auto` uses the step of the last printed decimal of the largest coordinates, or that of single precision if it is
+  coarser. A Shape smaller than a thousand steps is welded exactly, because a step may be intended there.
+- The remaining values are in the order in which the corners use them.
 
-- Exact, which is the default: numbers that are equal are joined, -0 and 0 are. Normals, colours and texture
-  coordinates are always joined like that.
-- With a tolerance, a point joins the first point within the tolerance that did not itself join another. So nothing
-  moves farther than the tolerance, and the points that are left are farther apart than that. The tolerance is in
-  units of the geometry's own coordinates: metres unless a Transform above scales them.
-- `auto` takes the step of the last decimal that the coordinates are printed with, from the largest of them, or that
-  of single precision if coarser; and joins nothing that is not equal where the shape is small, below a thousand
-  steps: there a step may be meant.
-- What is left comes in the order in which the corners first use it.
+Then the faces are repaired. The repairs run in this order; each is an option and has a count (`--stats`):
+- weld.degenerate-faces: faces with fewer than three different points, or without area, are removed. A polygon that
+  repeats a corner only loses the repetition (weld.repeated-corners). A mesh that has no other faces stays: it is
+  invisible but has an extent.
+- weld.duplicate-faces: a face is removed if an earlier one has the same points in the same order, or in the opposite
+  order if `solid` is FALSE. A depth buffer would show the earlier one, too. weld.duplicate-triangles counts the same in
+  triangles. A sheet that is written once for each side stays.
+- weld.t-junctions: a point of an open edge that lies on another open edge, within the tolerance or the rounding error
+  of double precision, becomes a corner of the face there. Its normal, colour and texture coordinate are interpolated.
+- weld.flipped-faces: in each part that is connected by edges of two faces, faces wound against the majority are
+  reversed. In a tie, a closed surface is made to face outward; for others the first face decides. `ccw` is respected. A
+  normal that agreed with its face is turned with it. One-sided parts, such as a Moebius strip, do not change
+  (weld.one-sided-parts).
+- weld.merged-faces: faces are united across edges with equal corners on both sides, if all points are in one plane and
+  each normal, colour and texture coordinate is linear over the whole. Polygons that would touch themselves or have a
+  hole are not made.
 
-The repairs, in their order; each is an option, and a count in the statistics:
-- weld.degenerate-faces: fewer than three different points, or no area (as `triangulate` sees it). A polygon only
-  loses the corners that repeat the one before (weld.repeated-corners). A mesh of nothing but such faces is kept: it
-  is not seen, but has an extent.
-- weld.duplicate-faces: the same points in the same order as an earlier face; in the opposite order too where `solid`
-  is FALSE. The earlier one stays, as a depth buffer would have it. weld.duplicate-triangles counts them as triangles.
-  A sheet given twice, once for each side, stays.
-- weld.t-junctions: corners added. A point of an open edge that lies on another open edge, within the tolerance (or
-  the rounding error of double precision), becomes a corner of the face there; its normal, colour and texture
-  coordinate are interpolated along the edge.
-- weld.flipped-faces: within each part that hangs together by edges of two faces, those that are wound against the
-  majority are reversed, at a tie those that make a closed surface face outward, or that disagree with the first face.
-  `ccw` is respected. A normal that agreed with its face is turned with it. Parts with one side only (Moebius) are
-  left alone (weld.one-sided-parts).
-- weld.merged-faces: how many faces fewer there are. Faces are united across edges with equal corners on both sides,
-  where all points lie in one plane and each normal, colour and texture coordinate is linear over the whole. Polygons
-  that would touch themselves or go round a hole are not made.
+Edges of more than two faces (weld.non-manifold-edges), and points where faces meet without a common edge
+(weld.non-manifold-points), are counted and stay. weld.joined-points is the number of points saved.
 
-Kept and counted: weld.non-manifold-edges, of more than two faces, and weld.non-manifold-points, where faces meet that
-hang together by no edge there. weld.joined-points counts what joining saved.
-
-Meshes of lines and points stay as they are. Needs no other pass; `join` before it brings faces into one geometry, as
-a mesh pass sees one at a time. Linear in the corners. Same input, same result; a second run changes nothing, without
-a tolerance.)";
+Lines and points do not change. A mesh pass sees one geometry at a time: run `join` first to weld across Shapes. Cost:
+linear in the corners. The same input gives the same result; without a tolerance a second run changes nothing.)";
   static constexpr StatisticInfo statistics[] = {
-      {"weld.joined-points", "points that joining saved"},
-      {"weld.degenerate-faces", "faces without area that were dropped"},
-      {"weld.repeated-corners", "corners that repeated the one before"},
-      {"weld.duplicate-faces", "faces that were there already"},
-      {"weld.duplicate-triangles", "the same, as triangles"},
-      {"weld.t-junctions", "corners that were added"},
-      {"weld.flipped-faces", "faces that were turned"},
-      {"weld.one-sided-parts", "parts with one side only, which are left alone"},
-      {"weld.merged-faces", "how many faces fewer there are"},
-      {"weld.non-manifold-edges", "edges of more than two faces, which are kept"},
-      {"weld.non-manifold-points", "points where parts meet that share no edge there, which are kept"},
+      {"weld.joined-points", "points saved by joining"},
+      {"weld.degenerate-faces", "faces without area removed"},
+      {"weld.repeated-corners", "repeated corners removed"},
+      {"weld.duplicate-faces", "duplicate faces removed"},
+      {"weld.duplicate-triangles", "duplicate faces removed, in triangles"},
+      {"weld.t-junctions", "corners added at T-junctions"},
+      {"weld.flipped-faces", "faces reversed"},
+      {"weld.one-sided-parts", "one-sided parts, which stay"},
+      {"weld.merged-faces", "faces saved by uniting neighbours"},
+      {"weld.non-manifold-edges", "edges of more than two faces, which stay"},
+      {"weld.non-manifold-points", "points where faces meet without a common edge, which stay"},
   };
 
   WeldTolerance tolerance;
@@ -85,7 +79,8 @@ a tolerance.)";
 
   void fields(auto&& f) {
     f("tolerance", tolerance,
-      "maximum distance of points that are joined, in units of the geometry; auto: from the digits of the file");
+      "maximum distance of points that are joined: 1mm, or a number in metres; a Transform above scales it with the "
+      "geometry; auto: from the digits of the file");
     f("degenerate", degenerate, "remove faces without area, and repeated corners");
     f("duplicates", duplicates, "remove duplicate faces");
     f("t-junctions", t_junctions, "insert points that lie on the open edge of a face into that face");

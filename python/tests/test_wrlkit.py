@@ -179,3 +179,40 @@ def test_a_group_in_itself_is_not_written(tmp_path):
     with pytest.raises(wrlkit.Error):
         world.save(tmp_path / 'out.wrl')
     assert not (tmp_path / 'out.wrl').exists()
+
+
+def test_wrong_arguments_are_named(tmp_path):
+    """What was given and what is expected, where pybind11 lists its signatures."""
+    world = world_of(tmp_path, 'DEF Red Material { }')
+    calls = {
+        r"load\(\): 'path' should be a path \(str or pathlib.Path\), not int 5": lambda: wrlkit.load(5),
+        r"load\(\): 'allow' should be a list of paths, not str 'textures'": lambda: wrlkit.load('a.wrl', 'textures'),
+        r"load\(\) has no parameter 'units'; did you mean 'unit'\?": lambda: wrlkit.load('a.wrl', units='mm'),
+        r"load\(\) needs 'path': a path": lambda: wrlkit.load(),
+        r"World.run\(\): 'pipeline' should be a str, not list \['weld'\]": lambda: world.run(['weld']),
+        r"World.find\(\): 'name' should be a str, not None": lambda: world.find(None),
+        r'World.find\(\) takes at most 1 arguments by position, not 2': lambda: world.find('a', 'b'),
+        r"World.save\(\): 'path' should be a path": lambda: world.save(None),
+        r"convert\(\): 'target' should be a path .* not None": lambda: wrlkit.convert('a.wrl', None),
+        r'Material.diffuseColor is an SFColor: 3 numbers, not str .red.': lambda: setattr(world.roots[0], 'diffuseColor', 'red'),
+        r'Group.children is an MFNode: a list of Nodes, not int 5': lambda: world.add('Group', children=5),
+        r'World.roots is a list of Nodes, not int 5': lambda: setattr(world, 'roots', 5),
+        r'Node.name is a str, not int 5': lambda: setattr(world.roots[0], 'name', 5),
+    }
+    for message, call in calls.items():
+        with pytest.raises(TypeError, match=message) as error:
+            call()
+        assert 'incompatible' not in str(error.value) and error.value.__context__ is None
+
+
+def test_lengths_have_units(tmp_path):
+    """Options of passes take lengths as the command line does."""
+    points = '[ 0 0 0, 1 0 0, 0 1 0, 1.0004 0 0, 1 1 0, 0 1.0004 0 ]'
+    for tolerance, left in (('1mm', 4), (0.001, 4), ('0.1mm', 6)):
+        world = world_of(tmp_path, f'Shape {{ geometry IndexedFaceSet {{ coord Coordinate {{ point {points} }} coordIndex [ 0 1 2 -1 3 4 5 -1 ] }} }}')
+        world.apply('weld', tolerance=tolerance)
+        assert len(world.nodes('Coordinate')[0].point) == left
+    with pytest.raises(ValueError, match="'1 parsec' is not a valid value: length or auto, as 0.5mm"):
+        world.apply('weld', tolerance='1 parsec')
+    world.apply('lod', errors=['1mm', '5mm'])
+    world.apply('tessellate', tolerance='1 cm')

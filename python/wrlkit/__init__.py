@@ -14,7 +14,8 @@ try:
 except ImportError as fault:
     raise ImportError('wrlkit needs NumPy (Debian: python3-numpy)') from fault
 
-from . import nodes
+from . import _wrlkit, arguments, nodes
+arguments.explain(_wrlkit, _wrlkit.World, _wrlkit.Node)
 from ._wrlkit import __version__, Error, Mesh, Message, Node, World, convert, load, main, node_types, passes
 from .definitions import Range, pass_
 

@@ -82,7 +82,7 @@ TEST_CASE("pipeline: text and back", "[pipeline]") {
 }
 
 TEST_CASE("pipeline: what is wrong with a text", "[pipeline]") {
-  CHECK(canonical("polish") == "error: there is no pass 'polish'");
+  CHECK(canonical("polish") == "error: there is no pass 'polish'; wrlkit passes lists them");
   CHECK(canonical("inline{deepness=3}") ==
         "error: pass 'inline' has no option 'deepness'; its options are depth, limit");
   CHECK(canonical("inline{depth=deep}") ==

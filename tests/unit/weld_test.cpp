@@ -345,5 +345,6 @@ TEST_CASE("the tolerance of weld is a length or auto") {
   REQUIRE(t.print() == "0");
   REQUIRE((t.read("0.25") && t.print() == "0.25" && !t.automatic));
   REQUIRE((t.read("auto") && t.print() == "auto"));
-  for (auto text : {"", "-1", "nan", "inf", "1m", "Auto"}) REQUIRE(!t.read(text));
+  REQUIRE((t.read("1mm") && t.print() == "0.001" && !t.automatic));
+  for (auto text : {"", "-1", "nan", "inf", "1 parsec", "Auto"}) REQUIRE(!t.read(text));
 }

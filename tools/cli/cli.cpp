@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -113,6 +115,7 @@ std::string fault_text(const std::string& what, const std::vector<std::string>& 
   const Verb* verb = words.empty() ? nullptr : find_verb(words[0]);
   if (!verb) {
     const auto fault = program_option_fault(words);
+    if (words.empty()) return "wrlkit: a verb or a file is required; see wrlkit --help\n";
     return fault.empty() ? "wrlkit: " + what + "; see wrlkit --help\n" : fault;
   }
   std::vector<std::string> options;
@@ -174,6 +177,29 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
     if (auto* p = sub->get_option_no_throw("--pipeline")) flags.pipeline_given = p->count() > 0;
   }
   return done;
+}
+
+/// Verbs of one scene do not take a folder. False, which was printed.
+bool takes_inputs(const Flags& flags, const Verb& verb) {
+  constexpr std::string_view of_one[] = {"convert", "optimize", "cat", "diff", "simplify", "compare-lod", "illuminate"};
+  if (std::ranges::find(of_one, std::string_view(verb.name)) == std::end(of_one)) return true;
+  std::error_code none;
+  const auto folder = std::ranges::find_if(
+      flags.inputs, [&](const std::string& path) { return std::filesystem::is_directory(path, none); });
+  if (folder == flags.inputs.end()) return true;
+  std::fprintf(stderr, "wrlkit %s: '%s' is a folder; wrlkit corpus run works on all scenes in folders\n", verb.name,
+               folder->c_str());
+  return false;
+}
+
+/// JSON and an output cannot both be standard output. False, which was printed.
+bool can_print_json(const Flags& flags, const Verb& verb) {
+  const bool prints = *verb.no_json && (flags.output.empty() || flags.output == "-");
+  if (!flags.json || (!prints && flags.output != "-")) return true;
+  std::fprintf(stderr, "wrlkit %s: --json: %s\n", spoken_verb(verb.name).c_str(),
+               prints ? verb.no_json
+                      : "the output itself goes to standard output; name a file for it, or use --report FILE.json");
+  return false;
 }
 
 std::vector<std::string> words_of(const GivenOptions& options) {
@@ -281,6 +307,8 @@ int run_command_line(int argc, char** argv) {
   if (!chosen) return code;
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
+  if (!takes_inputs(flags, *chosen)) return nothing;
+  if (!can_print_json(flags, *chosen)) return usage;
   if (!check_outputs(flags, chosen->endings, chosen->makes)) return usage;
   if (!limit(*chosen, flags)) return usage;
   return chosen->run(flags);

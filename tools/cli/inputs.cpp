@@ -41,6 +41,12 @@ bool match(std::span<const std::string> glob, std::span<const std::string> names
          match(glob.subspan(1), names.subspan(1));
 }
 
+/// The first line of a file, where a list has the name of one.
+bool begins_a_scene(std::string_view line) {
+  constexpr std::string_view begins[] = {"#VRML", "#Inventor", "#X3D", "<", "{", "glTF", "\x1f\x8b"};
+  return std::ranges::any_of(begins, [&](std::string_view begin) { return line.starts_with(begin); });
+}
+
 bool is_glob(const std::string& word) { return word.find_first_of("*?[") != word.npos; }
 
 /// The first of them, and how many more there are: lists may name any number of files that are not there.
@@ -115,10 +121,15 @@ class Gatherer {
   }
 
   void list(std::istream& lines, const std::string& name) {
-    for (std::string line; std::getline(lines, line);) {
+    bool first = true;
+    for (std::string line; std::getline(lines, line); first = false) {
+      std::error_code none;
+      if (first && begins_a_scene(line) && !fs::exists(line, none))
+        return leave_out(name +
+                         " is a scene, but a list is expected: the name of a scene in each line; save the scene " +
+                         "as a file and name that");
       if (line.ends_with('\r')) line.pop_back();
       if (line.empty()) continue;
-      std::error_code none;
       if (fs::is_regular_file(line, none))
         named(line, true);
       else
@@ -181,7 +192,7 @@ class Gatherer {
         if (std::ranges::find(above, folder) != above.end())
           i.disable_recursion_pending();  // a symbolic link that leads back
         above.push_back(folder);
-        if (!can_be_read(i->path())) i.disable_recursion_pending();
+        if (!can_be_read(i->path()) || holds_outputs(i->path())) i.disable_recursion_pending();
       }
       if (!is_folder) entry(*i, i->path().lexically_relative(path).string(), parts, at);
     }
@@ -203,6 +214,14 @@ class Gatherer {
     ++n_found_;
     n_unwanted_ += !is_asset && !wanted(inside);
     if (is_asset || wanted(inside)) add(file.path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
+  }
+
+  /// Of an earlier corpus run: the scenes in it would be there twice. A word that names the folder itself means it.
+  bool holds_outputs(const fs::path& folder) {
+    std::error_code none;
+    if (!fs::is_directory(folder / ".wrlkit", none)) return false;
+    out_.passed_over.push_back("'" + folder.string() + "' holds outputs of wrlkit and is passed over");
+    return true;
   }
 
   bool can_be_read(const fs::path& folder) {
@@ -261,6 +280,7 @@ bool means_many(const std::string& word) {
 std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, std::string& why) {
   const InputRules rules;
   NamedWorlds out;
+  out.is_list = words.size() != 1 || means_many(words[0]);
   for (const auto& word : words) {
     if (!means_many(word)) {
       out.worlds.push_back({word, word == "-" ? "standard input" : fs::path(word).filename().string()});
@@ -271,13 +291,21 @@ std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, s
     auto found = gatherer.take();
     for (auto& file : found.files) out.worlds.push_back({file.path, file.inside});
     std::ranges::move(found.left_out, std::back_inserter(out.left_out));
+    std::ranges::move(found.passed_over, std::back_inserter(out.passed_over));
   }
   if (!out.worlds.empty()) return out;
   why = in_one_line(out.left_out);
   return std::nullopt;
 }
 
-int print_left_out(std::string_view verb, const std::vector<std::string>& left_out) {
+std::string json_of_scenes(const NamedWorlds& named, const std::vector<std::string>& objects) {
+  if (!named.is_list && objects.size() == 1) return objects[0];
+  return fmt::format("[{}]", fmt::join(objects, ",\n"));
+}
+
+int print_left_out(std::string_view verb, const std::vector<std::string>& left_out,
+                   const std::vector<std::string>& passed_over) {
+  for (const auto& folder : passed_over) fmt::print(stderr, "wrlkit {}: {}\n", verb, folder);
   for (const auto& fault : left_out) fmt::print(stderr, "wrlkit {}: {}\n", verb, fault);
   return left_out.empty() ? done : partly;
 }

@@ -26,9 +26,10 @@ struct InputRules {
 };
 
 struct Inputs {
-  std::vector<std::string> roots;     // folders; files below them may refer to all that is there
-  std::vector<InputFile> files;       // by path, each once
-  std::vector<std::string> left_out;  // what is missing or empty, cannot be read, leads nowhere: sentences
+  std::vector<std::string> roots;        // folders; files below them may refer to all that is there
+  std::vector<InputFile> files;          // by path, each once
+  std::vector<std::string> left_out;     // what is missing or empty, cannot be read, leads nowhere: sentences
+  std::vector<std::string> passed_over;  // folders within folders that hold outputs of a corpus run: sentences
 };
 
 /// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
@@ -44,15 +45,17 @@ struct NamedWorld {
 bool means_many(const std::string& word);
 struct NamedWorlds {
   std::vector<NamedWorld> worlds;
-  std::vector<std::string> left_out;  // as those of Inputs
+  bool is_list = false;  // more than one word, or one that `means_many`: a list even if it has one scene
+  std::vector<std::string> left_out, passed_over;  // as those of Inputs
 };
 
 /// Files that are named stand as they are, even those that are not there; what `means_many` as the scenes in it.
 /// Nothing, and why, when there is no scene at all.
 std::optional<NamedWorlds> named_worlds(const std::vector<std::string>& words, std::string& why);
 
-/// Prints what was left out, a line each. `partly` when there is something, otherwise `done`.
-int print_left_out(std::string_view verb, const std::vector<std::string>& left_out);
+/// Prints what was left out and passed over, a line each. `partly` when something was left out, otherwise `done`.
+int print_left_out(std::string_view verb, const std::vector<std::string>& left_out,
+                   const std::vector<std::string>& passed_over);
 
 /// Whether a path below some folder is meant by a glob: "*" within a name, "**" across folders; without "/" it is about
 /// the last name alone.
@@ -60,5 +63,8 @@ bool glob_matches(const std::string& glob, const std::string& path);
 
 /// "a/b.wrl.gz" without its ending, when that is one of a scene: "a/b"; else nothing.
 std::optional<std::string> without_ending(const std::string& path);
+
+/// What --json of a verb prints of these scenes: an object where one is named, otherwise a list of objects.
+std::string json_of_scenes(const NamedWorlds& named, const std::vector<std::string>& objects);
 
 }  // namespace wrlkit

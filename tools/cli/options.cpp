@@ -7,6 +7,7 @@
 
 #include "base/math/digits.h"
 #include "base/text/amounts.h"
+#include "base/text/letter_case.h"
 #include "base/text/nearest_name.h"
 #include "convert/formats.h"
 #include "convert/option_text.h"
@@ -164,8 +165,8 @@ CLI::Validator a_share() {
     const bool percent = text.ends_with('%');
     if (percent) text.pop_back();
     double v = 0;
-    if (!read_number(std::string_view(text), v) || !(v >= 0) || v > (percent ? 100 : 1))
-      return "'" + given + "' is not a share from 0 to 1: 0.5, 50%";
+    if (!read_number(std::string_view(text), v) || !(v > 0) || v > (percent ? 100 : 1))
+      return "'" + given + "' is not a share above 0, up to 1: 0.5, 50%";
     if (percent) text = shortest_text(v / 100);
     return std::string();
   };
@@ -206,8 +207,14 @@ void files(CLI::App& verb, Flags& f) {
 void small_gltf(CLI::App& verb, Flags& f) {
   f.save.size_fields(AddOption{verb});
   verb.get_option("--position-bits")->excludes(verb.get_option("--tolerance"));
+  const auto names = one_of(profile_names());
   verb.add_option("--profile", f.profile, "set defaults for the program that will load the file")
-      ->check(one_of(profile_names()));
+      ->transform(CLI::Validator(
+          [names](std::string& name) {
+            name = lower_case(name);
+            return names(name);
+          },
+          names.get_description()));
 }
 
 void in_place(CLI::App& verb, Flags& f) {

@@ -130,11 +130,18 @@ int Session::end(bool made, int not_made) {
   std::fflush(stdout);  // what it is about stands before the messages
   const auto text = brief_ ? messages_brief : messages_text;
   std::fputs(text(diag(), isatty(STDERR_FILENO) != 0, flags_.quiet).c_str(), stderr);
-  if (!flags_.report.empty() && !write_report(code)) return nothing;
+  if (flags_.json && !made && !has_json_) print_json(report_json(code));
+  if (!flags_.report.empty() && !write_text_file(flags_.report, report_json(code) + '\n')) return nothing;
   return code;
 }
 
-bool Session::write_report(int code) {
+void Session::print_json(std::string_view json) {
+  has_json_ = true;
+  fmt::print("{}\n", json);
+  std::fflush(stdout);
+}
+
+std::string Session::report_json(int code) {
   std::string out;
   JsonOut json(out);
   json.object([&] {
@@ -145,8 +152,7 @@ bool Session::write_report(int code) {
     json.member("statistics", context().stats);
     json.member("messages", JsonText{messages_json(diag())});
   });
-  out += '\n';
-  return write_text_file(flags_.report, out);
+  return out;
 }
 
 bool write_text_file(const std::string& path, std::string_view text) {

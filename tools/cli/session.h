@@ -45,21 +45,27 @@ class Session {
   /// For --report: facts in addition to the messages, as JSON.
   void fact(std::string name, std::string json) { facts_.emplace_back(std::move(name), std::move(json)); }
 
+  /// What --json has on standard output: one document, and a line break.
+  void print_json(std::string_view json);
+  /// The caller prints the JSON of several sessions as one document.
+  void leave_json() { has_json_ = true; }
+
   int exit_code(bool made, int not_made) const {
     return !made ? not_made : document_.diag().has_errors() ? partly : done;
   }
   /// Messages are printed as a line for each kind, unless --verbose says more.
   void be_brief() { brief_ = !flags_.verbose; }
-  /// Prints the messages, writes the report and gives the exit code. `made`: there is an output.
+  /// Prints the messages, writes the report and gives the exit code. `made`: there is an output. With --json a run that
+  /// has printed nothing, as it has failed, prints what the report says.
   int end(bool made, int not_made = nothing);
 
  private:
   LoadOptions load_options();
-  bool write_report(int code);
+  std::string report_json(int code);
 
   const Flags& flags_;
   ThreadLimit threads_;
-  bool good_ = true, brief_ = false;
+  bool good_ = true, brief_ = false, has_json_ = false;
   Progress progress_;
   Document document_;
   std::optional<Pipeline> pipeline_;

@@ -76,6 +76,7 @@ std::optional<TomlNode> parse_toml(std::string_view text, std::string& why, Toml
     return root;
   } catch (const toml::parse_error& e) {
     why = e.description();
+    if (why.find("could not determine value type") != why.npos) why = "texts need quotes: \"mm\"";
     where = place_of(e.source());
     return std::nullopt;
   }

@@ -84,7 +84,8 @@ constexpr Verb all_verbs[] = {
        vrml_output(v, f);
        files(v, f);
      },
-     run_cat, ".wrl .wrz .wrl.gz .vrml"},
+     run_cat, ".wrl .wrz .wrl.gz .vrml", "",
+     "it prints the scene itself; write that to a file with -o, or use wrlkit info --json"},
     {"diff",
      "compare two scenes: structure, names, materials, and the distance between their surfaces; the exit code is 0 "
      "even if they differ",
@@ -338,8 +339,9 @@ constexpr Verb all_verbs[] = {
      [](CLI::App& v, Flags& f) {
        v.add_option("SHELL", f.name, "bash, zsh or fish")->required()->check(one_of({"bash", "zsh", "fish"}));
      },
-     run_completion},
-    {"manual", "print the manual page", "wrlkit manual | man -l -", [](CLI::App&, Flags&) {}, run_manual},
+     run_completion, "", "", "it prints a script for a shell"},
+    {"manual", "print the manual page", "wrlkit manual | man -l -", [](CLI::App&, Flags&) {}, run_manual, "", "",
+     "it prints a page for man"},
 };
 
 }  // namespace

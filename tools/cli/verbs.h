@@ -16,6 +16,7 @@ struct Verb {
   int (*run)(const Flags&);
   const char* endings = "";  // of outputs that have one format only, with blanks between them
   const char* makes = "";    // the file that it makes in the folder of its output
+  const char* no_json = "";  // why there is no JSON where it prints to standard output; empty: there is
 };
 
 /// In the order of the help.

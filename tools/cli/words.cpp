@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
+#include "base/math/digits.h"
 #include "base/text/nearest_name.h"
 #include "convert/formats.h"
+#include "passes/pipeline/pipeline.h"
+#include "tools/cli/cli.h"
 #include "tools/cli/flags.h"
+#include "tools/cli/recipe.h"
 #include "tools/cli/verbs.h"
 
 namespace wrlkit {
@@ -43,6 +48,7 @@ int no_such_verb(const std::string& word) {
   nearest.consider("help");
   if (!ending_of(word, scene_endings()).empty()) return say(fmt::format("there is no file '{}'", word));
   const bool near = !nearest.best().empty();
+  if (!near && find_pass(word)) return say(fmt::format("'{}' is a pass, not a verb; see wrlkit passes {}", word, word));
   return say(fmt::format("there is no verb '{}'{}{}", spoken_verb(word),
                          near ? fmt::format("; did you mean '{}'?", spoken_verb(std::string(nearest.best()))) : ";",
                          near ? "" : " see wrlkit --help"));
@@ -80,6 +86,47 @@ void split_corpus_verb(std::vector<std::string>& words) {
   words.insert(words.begin() + static_cast<std::ptrdiff_t>(at) + 1, second);
 }
 
+/// What stands between two words of a text; nothing when it has not both, in this order.
+std::optional<std::string> between(std::string_view text, std::string_view from, std::string_view to) {
+  const auto begin = text.find(from);
+  if (begin == text.npos) return std::nullopt;
+  text.remove_prefix(begin + from.size());
+  const auto end = to.empty() ? text.size() : text.find(to);
+  return end == text.npos ? std::nullopt : std::optional(std::string(text.substr(0, end)));
+}
+
+/// "0.1" of "0.100000".
+std::string plain_number(const std::string& text) {
+  double value = 0;
+  return read_number(std::string_view(text), value) ? shortest_text(value) : text;
+}
+
+/// What CLI11 says of numbers of values, and of ranges.
+std::string in_our_words(const std::string& what) {
+  const auto needed = between(what, ": At least ", " required but received ");
+  const auto given = between(what, " required but received ", "");
+  if (needed && given) {
+    const auto option = what.substr(0, what.find(": At least "));
+    return option == "IN" ? "IN and OUT are required"
+                          : fmt::format("{}: {} values are needed, not {}", option, *needed, *given);
+  }
+  const auto value = between(what, "Value ", " not in range "), least = between(what, " not in range ", " to "),
+             most = between(what, " to ", "");
+  if (value && least && most)
+    return fmt::format("{}{} is not in the range {} to {}", what.substr(0, what.find("Value ")), *value,
+                       plain_number(*least), plain_number(*most));
+  return what;
+}
+
+/// An option of convert, which `corpus` has not: it belongs to the recipe.
+std::string recipe_hint(std::string_view verb, std::string_view option) {
+  if (!verb.starts_with("corpus-")) return {};
+  const auto section = recipe_section(option);
+  const auto options = options_of("convert");
+  if (section.empty() || std::ranges::find(options, option, &OptionHelp::name) == options.end()) return {};
+  return fmt::format("; it belongs to the recipe: {} in section [{}]", option, section);
+}
+
 /// "-o", which many programs have, where this verb takes the output behind the input.
 std::string output_hint(const std::string& verb, const std::vector<std::string>& words, bool takes_output) {
   const bool has = std::ranges::any_of(words, [](const auto& w) { return w == "-o" || w.starts_with("--output"); });
@@ -112,14 +159,15 @@ std::string program_option_fault(const std::vector<std::string>& words) {
   if (words.empty() || !words[0].starts_with('-')) return {};
   NearestName nearest(words[0]);
   for (const auto* option : {"--help", "--version"}) nearest.consider(option);
-  return fmt::format("wrlkit: there is no option '{}' without a verb{}; see wrlkit --help\n", words[0],
-                     nearest.question());
+  const auto question = nearest.question();
+  return fmt::format("wrlkit: there is no option '{}' without a verb{}\n", words[0],
+                     question.empty() ? "; see wrlkit --help" : question);
 }
 
 std::optional<int> put_verb_first(std::vector<std::string>& words) {
   if (words.empty()) return std::nullopt;
   split_corpus_verb(words);
-  if (words[0] == "version") words[0] = "--version";
+  if (words[0] == "version" || words[0] == "-V") words[0] = "--version";
   const bool asks_help = words[0] == "help";
   if (asks_help) words.erase(words.begin());
   if (words.size() > 1 && words[0] == corpus && !words[1].starts_with('-')) {
@@ -145,6 +193,8 @@ std::string option_fault(const std::string& verb, const std::vector<std::string>
     if (!word.starts_with("--") || word.size() == 2) continue;
     const auto option = word.substr(2, std::min(word.find('='), word.size()) - 2);
     if (option == "help" || std::ranges::find(options, option) != options.end()) continue;
+    if (const auto hint = recipe_hint(verb, option); !hint.empty())
+      return fmt::format("{}: there is no option '--{}'{}\n", name, option, hint);
     NearestName nearest(option);
     for (const auto& o : options) nearest.consider(o);
     const auto meant = nearest.best().empty() ? fmt::format("; see {} --help", name)
@@ -160,7 +210,8 @@ std::string option_fault(const std::string& verb, const std::vector<std::string>
         is_few ? fmt::format("; did you mean {}?", fmt::join(same, " or ")) : fmt::format("; see {} --help", name);
     return fmt::format("{}: there is no option '{}'{}\n", name, letter, meant);
   }
-  return fmt::format("{}: {}; see {} --help\n", name, what, name);
+  const auto text = in_our_words(what);
+  return fmt::format("{}: {}{} see {} --help\n", name, text, text.ends_with('?') ? "" : ";", name);
 }
 
 }  // namespace wrlkit

@@ -100,7 +100,7 @@ std::optional<Shard> parse_shard(const std::string& text, std::string& why) {
     index = *i - 1;
   }
   if (!index || !count || *index >= *count) {
-    why = "'" + text + "' is no shard; 2/8 is the second of eight";
+    why = "'" + text + "' is not a valid shard; 2/8 is the second of eight";
     return std::nullopt;
   }
   return Shard{*index, *count};

@@ -101,7 +101,7 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
     return fail();
   }
   p.left_out = std::move(inputs->left_out);
-  print_left_out(verb, p.left_out);
+  print_left_out(verb, p.left_out, inputs->passed_over);
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
   if (!plan) return fail();
   p.plan = std::move(*plan);

@@ -10,8 +10,12 @@ int run_cat(const Flags& flags) {
   to.path = flags.output.empty() ? "-" : flags.output;
   if (!s.good() || !s.choose_pipeline(to.format->pipeline(options))) return usage;
   if (s.printed_pipeline()) return done;
-  return s.end(s.document().read(flags.inputs[0]) &&
-               write_document(s.document(), s.pipeline(), to, options, {s.pipeline_options()}));
+  const auto saved = s.document().read(flags.inputs[0])
+                         ? write_document(s.document(), s.pipeline(), to, options, {s.pipeline_options()})
+                         : Saved{};
+  if (saved) warn_of_files_outside(s, to, options);
+  if (flags.json) s.print_json(facts_json(s, to, saved));
+  return s.end(static_cast<bool>(saved));
 }
 
 }  // namespace wrlkit

@@ -60,13 +60,14 @@ std::string json_of(const std::string& path, const Diagnostics& d, bool readable
 
 int run_check(const Flags& flags) {
   std::size_t unreadable = 0, faulty = 0;
-  std::string json, why;
+  std::string why;
+  std::vector<std::string> objects;
   const auto inputs = named_worlds(flags.inputs, why);
   if (!inputs) {
     fmt::print(stderr, "wrlkit check: {}\n", why);
     return nothing;
   }
-  const int code = print_left_out("check", inputs->left_out);
+  const int code = print_left_out("check", inputs->left_out, inputs->passed_over);
   for (const auto& [path, name] : inputs->worlds) {
     Flags one = flags;
     one.inputs = {path};
@@ -77,11 +78,12 @@ int run_check(const Flags& flags) {
     s.progress().clear();
     unreadable += !readable;
     faulty += s.diag().has_errors();
-    if (flags.json || !flags.report.empty()) json += (json.empty() ? "[" : ",\n") + json_of(path, s.diag(), readable);
+    if (flags.json || !flags.report.empty()) objects.push_back(json_of(path, s.diag(), readable));
     if (!flags.json && (!flags.quiet || s.diag().has_errors())) print_text(path, s.diag());
   }
-  if (flags.json) fmt::print("{}]\n", json);
-  if (!flags.report.empty() && !write_text_file(flags.report, json + "]\n")) return usage;
+  const auto json = json_of_scenes(*inputs, objects) + '\n';
+  if (flags.json) fmt::print("{}", json);
+  if (!flags.report.empty() && !write_text_file(flags.report, json)) return nothing;
   return unreadable == inputs->worlds.size() ? nothing : faulty ? partly : code;
 }
 

@@ -108,20 +108,19 @@ double degrees(double radians) { return radians * 180 / std::numbers::pi; }
 
 std::string figures_json(const Comparison& c) {
   return json_text([&](JsonOut& json) {
-           json.object([&] {
-             json.member("triangles", c.n_faces);
-             json.list("criteria", c.criteria, [&](const auto& criterion) {
-               json.object([&] {
-                 json.member("name", criterion.name);
-                 json.list("levels", criterion.points, [&](const auto& p) {
-                   json.object("triangles", p.n_faces, "rms", p.rms, "max", p.error, "normal_degrees",
-                               degrees(p.normals), "seconds", p.seconds);
-                 });
-               });
-             });
-           });
-         }) +
-         '\n';
+    json.object([&] {
+      json.member("triangles", c.n_faces);
+      json.list("criteria", c.criteria, [&](const auto& criterion) {
+        json.object([&] {
+          json.member("name", criterion.name);
+          json.list("levels", criterion.points, [&](const auto& p) {
+            json.object("triangles", p.n_faces, "rms", p.rms, "max", p.error, "normal_degrees", degrees(p.normals),
+                        "seconds", p.seconds);
+          });
+        });
+      });
+    });
+  });
 }
 
 std::string figures_text(const Comparison& c) {
@@ -165,7 +164,10 @@ int run_compare_lod(const Flags& flags) {
   const auto comparison = compare(s);
   if (!comparison) return s.end(false);
   if (!write(*comparison, s)) return s.end(false);
-  fmt::print("{}", flags.json ? figures_json(*comparison) : figures_text(*comparison));
+  if (flags.json)
+    s.print_json(figures_json(*comparison));
+  else
+    fmt::print("{}", figures_text(*comparison));
   return s.end(true);
 }
 

@@ -2,15 +2,18 @@
 #include "tools/verbs/convert.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "base/text/json.h"
 #include "base/text/nearest_name.h"
 #include "convert/convert.h"
+#include "convert/missing_files.h"
 #include "convert/profiles.h"
 #include "convert/startup_scripts.h"
 #include "tools/cli/outputs.h"
@@ -84,21 +87,7 @@ std::vector<IdleOption> idle_options(const Flags& flags, const Output& to) {
   if (flags.is_given("format") && flags.output != "-" && output_of(flags.output) &&
       output_of("x." + flags.format)->format != to.format)
     out.push_back({"format", fmt::format("on '{}', whose name says {}", flags.output, to.format->name)});
-  if (flags.json && flags.output == "-") out.push_back({"json", "where the output is standard output"});
   return out;
-}
-
-std::string facts_json(Session& s, const Saved& saved) {
-  const auto& flags = s.flags();
-  return json_text([&](JsonOut& json) {
-           json.object([&] {
-             json.members("input", flags.inputs[0], "output", flags.output, "format",
-                          chosen_output(flags, save_options(flags))->format->name, "written", static_cast<bool>(saved));
-             if (saved.gltf) json.member("gltf", JsonText{summary_json(*saved.gltf)});
-             json.member("messages", JsonText{messages_json(s.diag())});
-           });
-         }) +
-         "\n";
 }
 
 }  // namespace
@@ -116,6 +105,32 @@ void warn_of_idle_options(const Flags& flags) {
   const auto to = chosen_output(flags, save_options(flags));
   for (const auto& [name, where] : idle_options(flags, *to))
     fmt::print(stderr, "wrlkit: --{} has no effect {}\n", name, where);
+}
+
+void warn_of_files_outside(Session& s, const Output& to, const SaveOptions& options) {
+  const bool is_alone = options.embed || options.link || options.dump || options.keep_urls;
+  if (to.path != "-" || !to.format->is_text || is_alone || s.flags().quiet || isatty(STDOUT_FILENO) != 0) return;
+  const auto files = files_outside(s.world().scene, s.resources());
+  if (files.empty()) return;
+  constexpr std::size_t most = 3;
+  std::string names;
+  for (const auto& file : std::span(files).first(std::min(most, files.size())))
+    names += (names.empty() ? "'" : ", '") + file + "'";
+  fmt::print(stderr,
+             "wrlkit: warning: standard output refers to {}{}, by urls from the folder of the input; --embed includes "
+             "pictures\n",
+             names, files.size() > most ? fmt::format(" and {} more", files.size() - most) : "");
+}
+
+std::string facts_json(Session& s, const Output& to, const Saved& saved) {
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("input", s.flags().inputs[0], "output", s.flags().output, "format", to.format->name, "written",
+                   static_cast<bool>(saved));
+      if (saved.gltf) json.member("gltf", JsonText{summary_json(*saved.gltf)});
+      json.member("messages", JsonText{messages_json(s.diag())});
+    });
+  });
 }
 
 bool prepare_conversion(Session& s) {
@@ -146,6 +161,7 @@ Saved write_world(Session& s, SaveOptions options, const std::function<void(Scen
   const auto to = chosen_output(s.flags(), options);
   auto saved = write_document(s.document(), s.pipeline(), *to, options, {s.pipeline_options(), last});
   if (saved && saved.gltf) s.fact("gltf", summary_json(*saved.gltf));
+  if (saved) warn_of_files_outside(s, *to, options);
   return saved;
 }
 
@@ -165,7 +181,7 @@ int run_convert(const Flags& flags) {
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
   if (saved && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
-  if (flags.json && flags.output != "-") fmt::print("{}", facts_json(s, saved));
+  if (flags.json) s.print_json(facts_json(s, *chosen_output(flags, save_options(flags)), saved));
   return s.end(static_cast<bool>(saved));
 }
 

@@ -75,8 +75,8 @@ std::string surface_text(const WorldDifference& d) {
   if (s.max == 0 && s.normal_max == 0) return "the same";
   auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
   return fmt::format(
-      "{:.4g} m rms ({:.2g} of the diagonal), {:.4g} m at most, at {:.6g} {:.6g} {:.6g}; normals {:.2g} degrees in the "
-      "mean",
+      "{:.4g} m rms ({:.2g} of the diagonal), {:.4g} m at most, at {:.6g} {:.6g} {:.6g}; normals {:.2g} degrees on "
+      "average",
       s.rms, d.of_diagonal, s.max, s.where[0], s.where[1], s.where[2], degrees(s.normal_mean));
 }
 
@@ -86,7 +86,7 @@ std::string difference_text(const WorldDifference& d, const Flags& flags) {
   out += fmt::format("  shapes {}, polygons {}, triangles {}, lines {}, points {}\n", change(a.shapes, b.shapes),
                      change(a.polygons, b.polygons), change(a.triangles, b.triangles), change(a.lines, b.lines),
                      change(a.points, b.points));
-  out += fmt::format("  materials {}, names {}\n", change(d.a.materials, d.b.materials),
+  out += fmt::format("  materials {}, different names {}\n", change(d.a.materials, d.b.materials),
                      change(d.a.names.size(), d.b.names.size()));
   out += name_list("missing", d.missing) + name_list("added", d.added);
   return out + fmt::format("  nodes:{}\n  bounds: {}\n  surface: {}\n", node_changes(d), bounds_text(d.bounds),
@@ -115,7 +115,10 @@ int run_diff(const Flags& flags) {
   const WorldDifference d = difference(std::move(*a), std::move(*b));
   s.progress().clear();
   const std::string json = difference_json(d);
-  fmt::print("{}{}", flags.json ? json : difference_text(d, flags), flags.json ? "\n" : "");
+  if (flags.json)
+    s.print_json(json);
+  else
+    fmt::print("{}", difference_text(d, flags));
   s.fact("difference", json);
   return s.end(true);
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/text/json.h"
 #include "convert/formats.h"
 #include "convert/profiles.h"
 #include "scenegraph/access_word.h"
@@ -12,17 +11,20 @@
 #include "tools/verbs/node_fates.h"
 
 namespace wrlkit {
-namespace {
 
-std::string level_word(Level l) {
+std::string_view level_word(Level l) {
   return l == Level::authored ? "authored" : l == Level::expanded ? "expanded" : "mesh";
 }
+
+namespace {
 
 std::string kinds_text(const FieldDef& f) {
   std::string out;
   for (auto k : f.kinds) out += (out.empty() ? "" : ", ") + std::string(k);
   return out;
 }
+
+}  // namespace
 
 /// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
 std::string limits_text(const FieldDef& f) {
@@ -47,8 +49,6 @@ std::string_view fate_text(BrowserNode::Fate fate) {
   if (fate == BrowserNode::Fate::drawn) return "drawn";
   return fate == BrowserNode::Fate::below ? "its children are drawn" : "kept";
 }
-
-}  // namespace
 
 std::string browser_node_text(const BrowserNode& n) {
   return fmt::format("{}  ({})\n  {}: {}\n", n.name, n.browser, n.what, fate_text(n.fate));
@@ -88,31 +88,6 @@ std::string formats_text() {
   std::string out = fmt::format("{:<10}{:<40}{:<32}{}\n", "format", "extensions", "read", "write");
   for (auto& f : formats()) out += fmt::format("{:<10}{:<40}{:<32}{}\n", f.name, f.endings, f.reads, f.writes);
   return out;
-}
-
-std::string formats_json() {
-  return json_text([&](JsonOut& json) {
-    json.list(formats(), [&](auto& f) {
-      json.object("name", f.name, "extensions", f.endings, "read", f.reads, "write", f.writes);
-    });
-  });
-}
-
-std::string passes_json() {
-  return json_text([&](JsonOut& json) {
-    json.list(passes(), [&](auto& p) {
-      json.object([&] {
-        json.members("name", p.name, "summary", p.summary, "needs", level_word(p.needs), "leaves",
-                     level_word(p.leaves));
-        json.list("options", p.make()->options(), [&](auto& o) {
-          const auto range = o.range.empty() ? std::nullopt : std::optional(o.range);
-          json.object("name", o.name, "type", o.type, "range", range, "default", o.value, "help", o.help);
-        });
-        json.list("statistics", p.statistics, [&](const auto& s) { json.object("name", s.name, "help", s.help); });
-        json.member("doc", p.doc);
-      });
-    });
-  });
 }
 
 namespace {

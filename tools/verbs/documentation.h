@@ -1,4 +1,4 @@
-// The tables as text: for the terminal, for JSON and for the generated pages of docs/.
+// The tables as text: for the terminal and for the generated pages of docs/; documentation_json.h has them as JSON.
 #pragma once
 #include <span>
 #include <string>
@@ -15,8 +15,14 @@ std::string browser_node_text(const BrowserNode&);
 std::string pass_text(const PassInfo&);
 std::string diagnostic_text(Diag);
 std::string formats_text();
-std::string passes_json();
-std::string formats_json();
+
+/// Words that all forms of the documentation share.
+std::string_view level_word(Level);
+/// Range, unit, kinds: what limits a value; and whether it is a field of wrlkit's own.
+std::string limits_text(const FieldDef&);
+/// What the field says, and in which dialect it is otherwise.
+std::string doc_text(const NodeType&, const FieldDef&);
+std::string_view fate_text(BrowserNode::Fate);
 
 /// A page of docs/, NAME.md; script/docs writes them all, a test compares.
 struct DocumentationPage {

@@ -103,11 +103,10 @@ void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
 
 void print(Session& s, const PatchSet& set, double seconds) {
   s.progress().clear();
-  if (s.flags().json && s.flags().output != "-") {
-    const auto text = json_of(json_object("file", s.flags().output, "method", set.method, "samples", set.samples,
-                                          "shapes", set.shapes.size(), "triangles", set.triangles.size(), "patches",
-                                          set.patches.size(), "cpu_seconds", seconds));
-    fmt::print("{}\n", text);
+  if (s.flags().json) {
+    s.print_json(json_of(json_object("file", s.flags().output, "method", set.method, "samples", set.samples, "shapes",
+                                     set.shapes.size(), "triangles", set.triangles.size(), "patches",
+                                     set.patches.size(), "cpu_seconds", seconds)));
   } else if (s.flags().verbose) {
     fmt::print(stderr, "{}: {} patches of {} triangles in {} shapes, {:.1f} s of processor time\n", s.flags().output,
                set.patches.size(), set.triangles.size(), set.shapes.size(), seconds);

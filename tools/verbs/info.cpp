@@ -9,6 +9,7 @@
 #include "base/text/json.h"
 #include "parsers/patches/patches.h"
 #include "tools/cli/inputs.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
 #include "tools/verbs/patches_info.h"
 
@@ -111,8 +112,8 @@ std::string info_text(const std::string& file, const Info& i) {
   out += unit_hint(b);
   out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(),
                      i.lights, i.viewpoints, i.lods);
-  out += fmt::format("  names {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}\n", i.names, i.protos,
-                     i.routes, i.scripts, i.inlines, i.animations);
+  out += fmt::format("  named nodes {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}\n", i.names,
+                     i.protos, i.routes, i.scripts, i.inlines, i.animations);
   std::vector<std::pair<std::uint64_t, std::string>> types;
   for (auto& [name, n] : i.nodes) types.emplace_back(n, name);
   std::ranges::sort(types,
@@ -127,18 +128,46 @@ std::string info_text(const std::string& file, const Info& i) {
   return out;
 }
 
-int info_of_one(const Flags& flags) {
+/// Of a file that cannot be read.
+std::string unreadable_json(const std::string& file, const Diagnostics& diag) {
+  return json_text([&](JsonOut& json) {
+    json.object([&] {
+      json.members("file", file, "readable", false);
+      json.member("messages", JsonText{messages_json(diag)});
+    });
+  });
+}
+
+/// Adds what --json prints to `objects`.
+int info_of_one(const Flags& flags, std::vector<std::string>& objects) {
   Session s(flags);
   if (!s.good()) return usage;
   s.be_brief();
+  s.leave_json();
+  const auto unreadable = [&] {
+    objects.push_back(unreadable_json(flags.inputs[0], s.diag()));
+    return s.end(false);
+  };
   const auto file = read_file(flags.inputs[0], {}, s.diag());
-  if (file && is_patch_file(file->view())) return print_patches_info(s, *file);
-  if (!file || !s.document().read(flags.inputs[0], *file)) return s.end(false);
+  if (file && is_patch_file(file->view())) {
+    const auto text = patches_info(s, *file);
+    if (!text) return unreadable();
+    if (flags.json)
+      objects.push_back(*text);
+    else
+      fmt::print("{}", *text);
+    return s.end(true);
+  }
+  if (!file || !s.document().read(flags.inputs[0], *file)) return unreadable();
+  if (s.diag().has_errors() && s.world().scene.node_count() == 0) return unreadable();
   const auto made = info(std::move(s.document()), {flags.recognise});
   s.progress().clear();
-  if (made && flags.json) fmt::print("{}\n", info_json(flags.inputs[0], *made, s.diag()));
-  if (made && !flags.json) fmt::print("{}", info_text(flags.inputs[0], *made));
-  return s.end(made.has_value());
+  if (!made) return unreadable();
+  if (flags.json)
+    objects.push_back(info_json(flags.inputs[0], *made, s.diag()));
+  else
+    fmt::print("{}", info_text(flags.inputs[0], *made));
+  return s.end(true);
 }
 
 }  // namespace
@@ -156,15 +185,17 @@ int run_info(const Flags& flags) {
     return usage;
   }
   std::size_t unreadable = 0;
-  int worst = print_left_out("info", inputs->left_out);
+  std::vector<std::string> objects;
+  int worst = print_left_out("info", inputs->left_out, inputs->passed_over);
   for (const auto& world : worlds) {
     Flags one = flags;
     one.inputs = {world.path};
-    const int code = info_of_one(one);
+    const int code = info_of_one(one, objects);
     if (code == usage) return code;
     unreadable += code == nothing;
     worst = std::max(worst, code == nothing ? static_cast<int>(partly) : code);
   }
+  if (flags.json) fmt::print("{}\n", json_of_scenes(*inputs, objects));
   return unreadable == worlds.size() ? static_cast<int>(nothing) : worst;
 }
 

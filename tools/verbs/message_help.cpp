@@ -49,15 +49,19 @@ std::string_view meaning(Severity severity) {
 
 }  // namespace
 
-std::string message_help(Diag id) {
-  const DiagInfo& diag = info(id);
+MessageExplanation message_explanation(Diag id) {
   const auto help = std::ranges::find(helps, id, &Help::id);
   constexpr std::size_t most_places = 8;
-  const bool known = help != std::end(helps);
-  const auto places = known ? places_of(help->example) : std::vector<std::string>(most_places, "...");
-  auto out = fmt::format("{} [{}]: {}\n", to_string(diag.severity), diag.name, text_with(diag, places));
-  if (known) out += fmt::format("  why: {}\n  what to do: {}\n", help->why, help->what_to_do);
-  return out + fmt::format("  {}: {}\n", to_string(diag.severity), meaning(diag.severity));
+  if (help == std::end(helps)) return {text_with(info(id), std::vector<std::string>(most_places, "...")), {}, {}};
+  return {text_with(info(id), places_of(help->example)), help->why, help->what_to_do};
+}
+
+std::string message_help(Diag id) {
+  const auto [severity, name] = std::pair(to_string(info(id).severity), info(id).name);
+  const auto help = message_explanation(id);
+  auto out = fmt::format("{} [{}]: {}\n", severity, name, help.example);
+  if (!help.why.empty()) out += fmt::format("  why: {}\n  what to do: {}\n", help.why, help.what_to_do);
+  return out + fmt::format("  {}: {}\n", severity, meaning(info(id).severity));
 }
 
 }  // namespace wrlkit

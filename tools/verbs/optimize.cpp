@@ -14,8 +14,8 @@ namespace wrlkit {
 namespace {
 
 std::string names_text(const Optimized& made) {
-  std::string out =
-      fmt::format("  names: {} of {} kept", made.n_names - made.lost.size() - made.not_shown.size(), made.n_names);
+  std::string out = fmt::format("  different names: {} of {} kept",
+                                made.n_names - made.lost.size() - made.not_shown.size(), made.n_names);
   if (!made.not_shown.empty()) out += fmt::format("; {} are only of nodes that no Switch shows", made.not_shown.size());
   return out + '\n';
 }
@@ -36,18 +36,17 @@ std::string text(const Session& s, std::uint64_t before, const Optimized& made) 
 /// What was made, and all messages; of an input that nothing could be made of, the messages alone.
 std::string figures_json(Session& s, std::uint64_t before, const Optimized& made) {
   return json_text([&](JsonOut& json) {
-           json.object([&] {
-             json.members("input", s.flags().inputs[0], "output", s.flags().output, "profile", s.flags().profile);
-             if (made) {
-               json.members("bytes_before", before, "bytes_after", bytes_after(s, made), "names_before", made.n_names,
-                            "names_lost", std::span<const std::string>(made.lost), "names_not_shown",
-                            std::span<const std::string>(made.not_shown));
-               json.member("gltf", JsonText{summary_json(*made.gltf)});
-             }
-             json.member("messages", JsonText{messages_json(s.diag())});
-           });
-         }) +
-         "\n";
+    json.object([&] {
+      json.members("input", s.flags().inputs[0], "output", s.flags().output, "profile", s.flags().profile);
+      if (made) {
+        json.members("bytes_before", before, "bytes_after", bytes_after(s, made), "names_before", made.n_names,
+                     "names_lost", std::span<const std::string>(made.lost), "names_not_shown",
+                     std::span<const std::string>(made.not_shown));
+        json.member("gltf", JsonText{summary_json(*made.gltf)});
+      }
+      json.member("messages", JsonText{messages_json(s.diag())});
+    });
+  });
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ int run_optimize(const Flags& given) {
   }
   s.progress().clear();
   if (flags.json)
-    fmt::print("{}", figures_json(s, before, made));
+    s.print_json(figures_json(s, before, made));
   else if (made && !flags.quiet)
     fmt::print(stderr, "{}", text(s, before, made));
   return s.end(static_cast<bool>(made));

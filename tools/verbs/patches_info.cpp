@@ -59,16 +59,12 @@ std::string as_text(const std::string& path, const FileText& file, const PatchSe
 
 }  // namespace
 
-int print_patches_info(Session& s, const FileText& file) {
+std::optional<std::string> patches_info(Session& s, const FileText& file) {
   const auto set = parse_patches(file, s.diag());
-  if (!set) return s.end(false);
+  if (!set) return std::nullopt;
   const auto& path = s.flags().inputs[0];
   const auto measured = measure(*set);
-  if (s.flags().json)
-    fmt::print("{}\n", as_json(path, file, *set, measured));
-  else
-    fmt::print("{}", as_text(path, file, *set, measured));
-  return s.end(true);
+  return s.flags().json ? as_json(path, file, *set, measured) : as_text(path, file, *set, measured);
 }
 
 }  // namespace wrlkit

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "base/image/image_animation.h"
 #include "base/io/output.h"
+#include "base/text/json.h"
 #include "base/text/letter_case.h"
 #include "tools/verbs/render_sheets.h"
 
@@ -59,10 +63,20 @@ bool has_viewpoint(Session& s, const MeshSource& meshes) {
   return s.diag().count(Diag::viewpoint_not_found) == 0;  // -Wno-viewpoint-not-found: the first one will do
 }
 
+/// With --json: what was drawn, and the files.
+void print_pictures(Session& s, const std::vector<std::string>& pictures) {
+  const Flags& f = s.flags();
+  if (f.json)
+    s.print_json(json_of(json_object("input", f.inputs[0], "pictures", std::span<const std::string>(pictures), "width",
+                                     f.width, "height", f.height)));
+}
+
 bool render_one(Session& s) {
   const auto meshes = open_world(s, s.flags().inputs[0]);
   if (!meshes || !has_viewpoint(s, meshes)) return false;
-  return write_picture(s, draw(s, meshes, render_options(s.flags()), "picture"), s.flags().output);
+  if (!write_picture(s, draw(s, meshes, render_options(s.flags()), "picture"), s.flags().output)) return false;
+  print_pictures(s, {s.flags().output});
+  return true;
 }
 
 /// "pump.png", 7: "pump_007.png".
@@ -87,14 +101,19 @@ class Turntable {
       if (!take(draw(s_, meshes, options, fmt::format("picture {}", i), i == 0 ? nullptr : &unheard), i)) return false;
       ++i;
     }
-    return !animation_ || end();
+    if (animation_ && !end()) return false;
+    print_pictures(s_, animation_ ? std::vector{name_} : written_);
+    return true;
   }
 
  private:
   static constexpr int milliseconds = 80;  // of each picture: 36 of them go round in 2.9 s
 
   bool take(const Image& picture, int i) {
-    if (!ends_with_ignoring_case(name_, ".webp")) return write_picture(s_, picture, numbered(name_, i), true);
+    if (!ends_with_ignoring_case(name_, ".webp")) {
+      written_.push_back(numbered(name_, i));
+      return write_picture(s_, picture, written_.back(), true);
+    }
     std::string why;
     if (!animation_) animation_ = begin_webp_animation(milliseconds, why);
     if (animation_ && animation_->add(picture, why)) return true;
@@ -114,6 +133,7 @@ class Turntable {
 
   Session& s_;
   const std::string& name_;
+  std::vector<std::string> written_;
   std::unique_ptr<PictureAnimation> animation_;
 };
 
@@ -158,7 +178,8 @@ int run_render(const Flags& given) {
                                            : render_one(s);
   s.progress().clear();
   if (made && flags.verbose && flags.mode == RenderOptions::Mode::density)
-    fmt::print(stderr, "texels a metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
+    fmt::print(stderr,
+               "texels per metre: blue 1, cyan 6, green 32, yellow 181, red {:.0f} and more; grey: no lightmap\n",
                most_texels_per_metre);
   return s.end(made, s.diag().count(Diag::viewpoint_not_found) > 0 ? usage : nothing);
 }

@@ -79,7 +79,7 @@ bool render_comparison(Session& s) {
   s.progress().clear();
   if (f.output == "-") return true;
   if (f.json)
-    fmt::print("{}\n", figures);
+    s.print_json(figures);
   else
     fmt::print("{}, {} of {} pixels\n", text, d.n_pixels, n_all);
   return true;

@@ -35,7 +35,7 @@ int render_sheet(Session& s) {
     return nothing;
   }
   const auto& worlds = named->worlds;
-  const int code = print_left_out("render", named->left_out);
+  const int code = print_left_out("render", named->left_out, named->passed_over);
   RenderOptions options = render_options(f);
   if (!f.is_given("width")) options.width = 320;
   if (!f.is_given("height")) options.height = 240;
@@ -64,7 +64,7 @@ int render_sheet(Session& s) {
   const bool made = write_picture(s, picture_grid(pictures, columns), f.output);
   const auto contents = contents_json(worlds, drawn);
   s.fact("worlds", contents);
-  if (made && f.json && f.output != "-") fmt::print("{}\n", contents);
+  if (made && f.json) s.print_json(contents);
   return std::max(code, s.end(made));
 }
 

@@ -101,7 +101,7 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
   if (!file->commit(s.diag())) return s.end(false);
   s.progress().clear();
   if (s.flags().json) {
-    fmt::print("{}\n", json_of(json_object("file", path, "surfaces", surfaces.size(), "bytes", bytes.size())));
+    s.print_json(wrlkit::json_of(json_object("file", path, "surfaces", surfaces.size(), "bytes", bytes.size())));
   } else {
     fmt::print("{}: {} surfaces, {} bytes\n", path, surfaces.size(), bytes.size());
   }
@@ -122,8 +122,28 @@ struct WrittenWorlds {
   bool is_opened = false;  // prototypes and LODs are replaced by what they show
 };
 
-void print_json(const WrittenWorlds& all) {
-  const auto text = json_text([&](JsonOut& json) {
+/// A number of triangles that was asked for, and that of the scene which was made for it.
+struct Asked {
+  std::size_t triangles = 0, reached = 0;
+
+  void fields(auto&& f) const {
+    f("triangles", triangles);
+    f("reached", reached);
+  }
+};
+
+std::vector<Asked> asked_of(const WorldSimplifyOptions& options, const WrittenWorlds& all) {
+  std::vector<Asked> out;
+  if (all.points.empty()) return out;
+  for (const auto count : counts_of(options, all.n_drawn)) {
+    const auto point = std::ranges::find_if(all.points, [&](const Written& p) { return p.n_drawn <= count; });
+    out.push_back({count, (point == all.points.end() ? all.points.back() : *point).n_drawn});
+  }
+  return out;
+}
+
+std::string json_of(const WorldSimplifyOptions& options, const WrittenWorlds& all) {
+  return json_text([&](JsonOut& json) {
     json.object([&] {
       json.members("triangles", all.n_drawn, "unique", all.n_faces);
       json.list("points", all.points, [&](const auto& p) {
@@ -132,12 +152,27 @@ void print_json(const WrittenWorlds& all) {
       });
       if (!all.lod_file.empty()) json.member("lod", all.lod_file);
       json.member("expanded", all.is_opened);
+      json.member("asked", asked_of(options, all));
     });
   });
-  fmt::print("{}\n", text);
 }
 
-void print_table(const WrittenWorlds& all) {
+/// Numbers of triangles that were missed by a twentieth of them and a fiftieth of all.
+void print_missed(const WorldSimplifyOptions& options, const WrittenWorlds& all) {
+  const auto share = [&](std::size_t n) {
+    return fmt::format("{} ({:.3g} %)", n, 100 * static_cast<double>(n) / static_cast<double>(all.n_drawn));
+  };
+  for (const auto& [asked, reached] : asked_of(options, all)) {
+    const bool fewer = reached < asked;
+    const auto apart = fewer ? asked - reached : reached - asked;
+    if (apart * 20 < asked || apart * 50 < all.n_drawn) continue;
+    fmt::print("asked for {} triangles, reached {}: {}\n", share(asked), share(reached),
+               fewer ? "the next finer choice of levels has more than were asked for"
+                     : "no more can go without losing whole parts or what may not change");
+  }
+}
+
+void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) {
   fmt::print("{:>10}  {:>10}  {:>8}  {:>10}  {:>10}  file\n", "triangles", "unique", "left out", "rms", "max");
   fmt::print("{:>10}  {:>10}  {:>8}  {:>10}  {:>10}\n", all.n_drawn, all.n_faces, 0, 0, 0);
   for (const auto& p : all.points)
@@ -147,6 +182,7 @@ void print_table(const WrittenWorlds& all) {
   if (all.is_opened)
     fmt::print(
         "to have few enough triangles, prototypes and LODs were replaced by what they show (not with -p weld)\n");
+  print_missed(options, all);
 }
 
 /// As `info` counts them. Messages about them come when they are simplified.
@@ -313,7 +349,10 @@ int run_simplify(const Flags& flags) {
   if (!simplify_world(s, *options, names, all)) return s.end(false);
   s.progress().clear();
   warn_of_idle_counts(flags, all);
-  if (names.file != "-") (flags.json ? print_json : print_table)(all);
+  if (flags.json)
+    s.print_json(json_of(*options, all));
+  else if (names.file != "-")
+    print_table(*options, all);
   return s.end(true);
 }
 

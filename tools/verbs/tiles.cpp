@@ -27,7 +27,7 @@ std::vector<TilesInput> inputs_of(const Flags& flags, int& code) {
   if (!found) fmt::print(stderr, "wrlkit tiles: {}\n", why);
   std::vector<TilesInput> out;
   if (!found) return out;
-  code = print_left_out("tiles", found->left_out);
+  code = print_left_out("tiles", found->left_out, found->passed_over);
   std::set<std::string> inside;
   for (const auto& file : found->files) inside.insert(file.inside);
   const bool differ = inside.size() == found->files.size();
@@ -164,7 +164,7 @@ int run_tiles(const Flags& flags) {
   if (!made) return s.end(false);
   s.fact("tiles", json_of(made));
   if (flags.json)
-    fmt::print("{}\n", json_of(made));
+    s.print_json(json_of(made));
   else if (!flags.quiet)
     fmt::print(stderr, "{}", text_of(made, flags.output));
   return std::max(code, s.end(true));

@@ -157,7 +157,7 @@ bool write_page(Session& s, const ViewerPage& page) {
   if (!file->commit(s.diag())) return false;
   const auto contents = contents_json(page, s.flags().output, n_bytes);
   s.progress().clear();
-  if (s.flags().json && s.flags().output != "-") fmt::print("{}\n", contents);
+  if (s.flags().json) s.print_json(contents);
   s.fact("page", contents);
   return true;
 }

@@ -13,6 +13,7 @@
 #include "base/text/json.h"
 #include "convert/info.h"
 #include "tools/cli/inputs.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
 #include "tools/report/gallery_page.h"
 #include "tools/verbs/render_sheets.h"
@@ -134,6 +135,11 @@ std::vector<GalleryWorld>::const_iterator without_picture(const Gallery& g) {
 void print_faults(const Gallery& g) {
   for (const auto& w : g.worlds)
     if (!w.fault.empty()) fmt::print(stderr, "wrlkit view: {}: {}\n", w.name, w.fault);
+  const auto with_errors =
+      std::ranges::count_if(g.worlds, [](const GalleryWorld& w) { return w.fault.empty() && w.errors > 0; });
+  if (with_errors > 0)
+    fmt::print(stderr, "wrlkit view: {} with errors, marked in the page; wrlkit check lists them\n",
+               counted(static_cast<std::size_t>(with_errors), "scene"));
   if (const auto blank = without_picture(g); blank != g.worlds.end())
     fmt::print(stderr, "wrlkit view: there are no pictures: {}\n", blank->no_picture);
   if (g.n_left_out > 0)
@@ -161,7 +167,7 @@ int view_gallery(const Flags& flags) {
     fmt::print(stderr, "wrlkit view: {}\n", why);
     return nothing;
   }
-  const int left_out = print_left_out("view", named->left_out);
+  const int left_out = print_left_out("view", named->left_out, named->passed_over);
   FilesRead inputs;
   for (const auto& world : named->worlds) inputs.add(world.path);
   const Gallery gallery = gallery_of(s, named->worlds);
@@ -170,7 +176,7 @@ int view_gallery(const Flags& flags) {
   if (file) file->write(page);
   const bool made = file && file->commit(s.diag());
   const auto contents = contents_json(gallery, flags.output, page.size());
-  if (made && flags.json && flags.output != "-") fmt::print("{}\n", contents);
+  if (made && flags.json) s.print_json(contents);
   s.fact("page", contents);
   print_faults(gallery);
   const int code = s.end(made);

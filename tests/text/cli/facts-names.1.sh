@@ -1,4 +1,4 @@
-wrlkit optimize %S/inputs/facts_names.wrl %t.glb 2>&1 | grep '^  names:'
+wrlkit optimize %S/inputs/facts_names.wrl %t.glb 2>&1 | grep '^  different names:'
 wrlkit diff -q --json %S/inputs/facts_names.wrl %t.glb |
     python3 -c "
 import json,sys

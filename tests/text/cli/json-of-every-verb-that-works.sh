@@ -5,7 +5,8 @@ printf 'pipeline = "weld"\n[output]\nformat = "wrl"\n' > %t.toml
 words_of() {
     case $1 in
         convert | optimize) echo %t.wrl %t.$1.glb ;;
-        info | check | cat) echo %t.wrl ;;
+        info | check) echo %t.wrl ;;
+        cat) echo %t.wrl -o %t.cat.wrl ;;
         diff) echo %t.wrl %t.convert.glb ;;
         render) echo %t.wrl %t.png --width 20 --height 20 ;;
         simplify) echo %t.wrl --ratios 0.5 -o %t.simplified ;;
@@ -18,6 +19,8 @@ words_of() {
         passes | formats) ;;
         explain) echo Box ;;
         docs) echo profiles ;;
+        completion) echo bash ;;
+        manual) ;;
         *) echo --help ;;
     esac
 }

@@ -52,5 +52,5 @@ function popPictures(pop: Pop): HTMLElement {
   });
   return h('div', {class: 'pops'}, h('div', {class: 'pictures'}, ...pictures),
     h('p', {}, h('output', {id: 'pop-pixels'}, `${count(pop.changed)} of ${count(pop.covered)} pixels change`),
-      `, by ${significant(pop.mean, 2)} of 255 in the mean and ${pop.largest} at most. `, h('span', {class: 'soft'}, 'Counted from 9 of 255 on. Small differences are made brighter.')));
+      `, by ${significant(pop.mean, 2)} of 255 on average and ${pop.largest} at most. `, h('span', {class: 'soft'}, 'Counted from 9 of 255 on. Small differences are made brighter.')));
 }
