@@ -179,17 +179,31 @@ int parse(std::vector<std::string> words, Flags& flags, const Verb*& chosen) {
   return done;
 }
 
-/// Verbs of one scene do not take a folder. False, which was printed.
+/// Verbs of one scene do not take a folder, and none takes what is in a network. False, which was printed.
 bool takes_inputs(const Flags& flags, const Verb& verb) {
+  namespace fs = std::filesystem;
   constexpr std::string_view of_one[] = {"convert", "optimize", "cat", "diff", "simplify", "compare-lod", "illuminate"};
-  if (std::ranges::find(of_one, std::string_view(verb.name)) == std::end(of_one)) return true;
+  const bool is_of_one = std::ranges::find(of_one, std::string_view(verb.name)) != std::end(of_one);
+  const auto fault = [&](const std::string& path) {
+    std::error_code none;
+    if (path.find("://") != path.npos && !fs::exists(path, none))
+      return "is a url; wrlkit reads local files, so give the path of one";
+    return is_of_one && fs::is_directory(path, none) ? "is a folder; wrlkit corpus run works on all scenes in folders"
+                                                     : "";
+  };
+  for (const auto& path : flags.inputs)
+    if (const std::string_view why = fault(path); !why.empty()) {
+      std::fprintf(stderr, "wrlkit %s: '%s' %s\n", spoken_verb(verb.name).c_str(), path.c_str(), why.data());
+      return false;
+    }
+  return true;
+}
+
+void warn_of_missing_folders(const Flags& flags) {
   std::error_code none;
-  const auto folder = std::ranges::find_if(
-      flags.inputs, [&](const std::string& path) { return std::filesystem::is_directory(path, none); });
-  if (folder == flags.inputs.end()) return true;
-  std::fprintf(stderr, "wrlkit %s: '%s' is a folder; wrlkit corpus run works on all scenes in folders\n", verb.name,
-               folder->c_str());
-  return false;
+  for (const auto& folder : flags.load.allow_paths)
+    if (!flags.quiet && !std::filesystem::is_directory(folder, none))
+      std::fprintf(stderr, "wrlkit: --allow-path: there is no folder '%s'\n", folder.c_str());
 }
 
 /// JSON and an output cannot both be standard output. False, which was printed.
@@ -308,6 +322,7 @@ int run_command_line(int argc, char** argv) {
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
   if (!takes_inputs(flags, *chosen)) return nothing;
+  warn_of_missing_folders(flags);
   if (!can_print_json(flags, *chosen)) return usage;
   if (!check_outputs(flags, chosen->endings, chosen->makes)) return usage;
   if (!limit(*chosen, flags)) return usage;

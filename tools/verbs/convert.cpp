@@ -43,6 +43,9 @@ std::string no_format(const std::string& output) {
   if (const auto foreign = foreign_format(output); !foreign.empty())
     return fmt::format("'{}': {} is not written; wrlkit writes {} (wrlkit formats), which most programs import", output,
                        foreign, output_endings_text());
+  if (output.ends_with(".glb.gz") || output.ends_with(".gltf.gz"))
+    return fmt::format("'{}': glTF is not packed by gzip, as viewers do not read that; --compress makes it small",
+                       output);
   const auto dot = output.rfind('.');
   NearestName nearest(dot == output.npos ? std::string_view() : std::string_view(output).substr(dot));
   for (auto ending : output_endings()) nearest.consider(ending);

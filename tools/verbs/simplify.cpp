@@ -150,9 +150,9 @@ std::string json_of(const WorldSimplifyOptions& options, const WrittenWorlds& al
         json.object("file", p.file, "triangles", p.n_drawn, "unique", p.n_faces, "left_out", p.n_gone, "rms", p.rms,
                     "max", p.max);
       });
+      json.member("asked", asked_of(options, all));
       if (!all.lod_file.empty()) json.member("lod", all.lod_file);
       json.member("expanded", all.is_opened);
-      json.member("asked", asked_of(options, all));
     });
   });
 }
