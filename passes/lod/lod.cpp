@@ -15,6 +15,8 @@
 #include "geometry/simplify/world_levels.h"
 #include "passes/lod/cell_lods.h"
 #include "passes/pipeline/length_option.h"
+#include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
@@ -164,6 +166,12 @@ Outcome lods_of_world(Scene& scene, const LodOptions& options, PassContext& ctx)
   return made.n_lods > 0 ? Outcome::changed : Outcome::unchanged;
 }
 
+void report_inlines(const Scene& scene, Diagnostics& diag) {
+  const auto n =
+      std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.is(n, nodes::Inline); });
+  if (n > 0) diag.report(Diag::not_simplified, {}, fmt::format("surfaces of {} Inlines; use '-p inline,lod'", n));
+}
+
 }  // namespace
 
 namespace {
@@ -214,6 +222,7 @@ bool LengthList::read(std::string_view text) {
 std::string LengthList::print() const { return with_colons(values); }
 
 Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) {
+  report_inlines(scene, ctx.diag);
   return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_world(scene, options, ctx);
 }
 

@@ -156,7 +156,7 @@ int run_compare_lod(const Flags& flags) {
   Session s(flags);
   if (!has_one_budget(flags) || !s.good() ||
       !s.choose_pipeline(flags.pipeline_given ? "lower-vrml1,lower-x3d{vrml97=true}"
-                                              : "lower-vrml1,lower-x3d{vrml97=true},weld"))
+                                              : "lower-vrml1,inline,lower-x3d{vrml97=true},weld"))
     return usage;
   if (s.printed_pipeline()) return done;
   if (!s.read(flags.inputs[0]) || !s.pipeline().run(s.world().scene, s.context(), s.pipeline_options()))

@@ -312,14 +312,15 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
   return write_worlds(s, world, names, all);
 }
 
-/// Surfaces without loose faces; and baked light in the textures, where VRML is written for browsers.
+/// What Inlines show, surfaces without loose faces; and baked light in the textures, where VRML is written for
+/// browsers.
 std::string_view standard_pipeline(const Flags& flags) {
   if (flags.pipeline_given) return flags.progressive || flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
   if (flags.progressive) return "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
   if (const auto to = output_of(flags.output); to && to->format->parsed != Format::vrml97)
-    return "lower-vrml1,lower-x3d,weld";  // the format keeps more than VRML97 does
-  return flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true},weld"
-                         : "lower-vrml1,lower-x3d{vrml97=true},combine-lightmap,weld";
+    return "lower-vrml1,inline,lower-x3d,weld";  // the format keeps more than VRML97 does
+  return flags.save.dump ? "lower-vrml1,inline,lower-x3d{vrml97=true},weld"
+                         : "lower-vrml1,inline,lower-x3d{vrml97=true},combine-lightmap,weld";
 }
 
 /// The names that --output asks for; makes its folder when it is one.
