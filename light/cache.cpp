@@ -20,14 +20,13 @@ IrradianceCache::IrradianceCache(const V3& centre, double largest, int number)
   for (int level = 0; level < levels; ++level) per_unit_[level] = std::ldexp(1 / largest, level);
 }
 
-/// The first level whose cells are small enough for that distance; `levels` when none is.
 int IrradianceCache::level_for(double distance) const {
   const double times = distance / finest_;
   if (!(times >= 1)) return levels;
   return std::max(0, levels - 1 - std::ilogb(times));
 }
 
-IrradianceCache::Key IrradianceCache::key_at(const RayEnd& place, int level) const {
+IrradianceCache::Key IrradianceCache::key(const RayEnd& place, int level) const {
   const V3& face = place.face;
   V3 p = per_unit_[level] * (place.position - centre_) + offset_;
   auto whole = [](double v) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v))); };
@@ -39,23 +38,33 @@ IrradianceCache::Key IrradianceCache::key_at(const RayEnd& place, int level) con
                      std::uint64_t{place.scope} * 0xff51afd7ed558ccdu);
 }
 
-std::optional<IrradianceCache::Key> IrradianceCache::key(const RayEnd& place, int larger) const {
-  const int level = level_for(place.distance);
-  if (level == levels) return {};
-  return key_at(place, std::max(0, level - larger));
-}
-
 std::size_t IrradianceCache::slot(Key key) const {
   std::size_t at = key & (table_.size() - 1);
   while (table_[at].cell && table_[at].key != key) at = (at + 1) & (table_.size() - 1);
   return at;
 }
 
-const IrradianceCache::Cell* IrradianceCache::find(const RayEnd& place, int larger) const {
+const IrradianceCache::Cell* IrradianceCache::at(const RayEnd& place, int level) const {
   if (table_.empty()) return nullptr;
+  const std::uint32_t number = table_[slot(key(place, level))].cell;
+  if (!number) return nullptr;
+  const Cell& c = cells_[number - 1];
+  const V3& p = place.position;
+  const bool within =
+      p.x >= c.low.x && p.y >= c.low.y && p.z >= c.low.z && p.x <= c.high.x && p.y <= c.high.y && p.z <= c.high.z;
+  return within ? &c : nullptr;
+}
+
+const IrradianceCache::Cell* IrradianceCache::find(const RayEnd& place) const {
+  for (int l = level_for(place.distance); l < levels; ++l)
+    if (const Cell* c = at(place, l)) return c;
+  return nullptr;
+}
+
+const IrradianceCache::Cell* IrradianceCache::find_larger(const RayEnd& place, int larger) const {
   const int level = level_for(place.distance);
-  for (int l = std::min(level, levels - 1); l >= std::max(0, level - larger); --l)
-    if (std::uint32_t cell = table_[slot(key_at(place, l))].cell) return &cells_[cell - 1];
+  for (int l = level - 1; l >= std::max(0, level - larger); --l)
+    if (const Cell* c = at(place, l)) return c;
   return nullptr;
 }
 
@@ -64,31 +73,11 @@ void IrradianceCache::rebuild(std::size_t size) {
   for (std::uint32_t c = 0; c < cells_.size(); ++c) table_[slot(keys_[c])] = {keys_[c], c + 1};
 }
 
-void IrradianceCache::keep_only(std::span<const char> keep) {
-  std::size_t kept = 0;
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    if (!keep[c]) continue;
-    cells_[kept] = cells_[c];
-    keys_[kept++] = keys_[c];
-  }
-  cells_.resize(kept);
-  keys_.resize(kept);
-  rebuild(table_.size());
-}
-
-void IrradianceCache::meet(Key key, const Receiver& place, std::uint64_t rank) {
+void IrradianceCache::add(Key key, const Cell& cell) {
   if (cells_.size() * 2 >= table_.size()) rebuild(std::max<std::size_t>(1024, table_.size() * 2));
-  std::size_t at = slot(key);
-  if (!table_[at].cell) {
-    cells_.emplace_back();
-    keys_.push_back(key);
-    table_[at] = {key, static_cast<std::uint32_t>(cells_.size())};
-  }
-  Cell& c = cells_[table_[at].cell - 1];
-  // Each of n meetings stays with the same probability (Vitter's algorithm R).
-  std::uint64_t keep = c.n_met < most_places ? c.n_met : rank % (c.n_met + 1);
-  if (keep < most_places) c.places[keep] = place;
-  ++c.n_met;
+  cells_.push_back(cell);
+  keys_.push_back(key);
+  table_[slot(key)] = {key, static_cast<std::uint32_t>(cells_.size())};
 }
 
 }  // namespace wrlkit::light

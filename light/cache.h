@@ -3,10 +3,9 @@
 // A cell is a cube of space together with about one direction of faces, so thin plates have two, curved surfaces
 // several, and any number of tiny triangles share one. There are cells only where rays have ended. A ray that ends far
 // away looks up a large cell and one that ends near a small one, so that a cell spans about the same angle from
-// wherever it is seen.
+// wherever it is seen. Where walls or things divide a cell, there are smaller ones instead.
 #pragma once
-#include <optional>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "light/flux.h"
@@ -15,15 +14,13 @@ namespace wrlkit::light {
 
 class IrradianceCache {
  public:
-  static constexpr int most_places = 8;
   using Key = std::uint64_t;
 
   struct Cell {
-    Receiver places[most_places];  // a fair choice of where rays ended in it
-    std::uint32_t n_met = 0;       // rays that ended in it
-    V3 direct, gathered;           // mean irradiance from lamps and emitters, and from all else
+    V3 direct, gathered;  // mean irradiance from lamps and emitters, and from all else
+    Receiver place;       // one of those where rays ended in it
+    V3 low, high;         // of where they did, with as much around as a few rays leave out: beyond may be a wall
 
-    int n_places() const { return n_met < most_places ? static_cast<int>(n_met) : most_places; }
     V3 irradiance() const { return direct + gathered; }
   };
 
@@ -40,25 +37,27 @@ class IrradianceCache {
 
   static constexpr int levels = 7;  // each half as large as the one before
 
-  /// The cell for a place; none when it is too near for any cell. `larger`: one whose sides are 2^larger times as long,
-  /// or the largest.
-  std::optional<Key> key(const RayEnd& place, int larger = 0) const;
-  /// The cell of a place or, when no ray has ended there, the smallest of those that are up to `larger` times twice as
-  /// large. Null when none of them is there.
-  const Cell* find(const RayEnd& place, int larger = 0) const;
-  /// Makes the cell when it is new. `rank` is a random number for this meeting.
-  void meet(Key key, const Receiver& place, std::uint64_t rank);
-
-  /// Forgets the cells for which `keep`, by number, is false.
-  void keep_only(std::span<const char> keep);
+  /// Level 0 has the largest cells.
+  Key key(const RayEnd& place, int level) const;
+  /// The first level whose cells are small enough for that distance; `levels` when none is.
+  int level_for(double distance) const;
+  /// The cell of a place or, when there is none, the largest of those that are smaller. Null when none of them is
+  /// there.
+  const Cell* find(const RayEnd& place) const;
+  /// The smallest of those that are up to `larger` times twice as large. A wall may stand between it and the place:
+  /// nobody has looked.
+  const Cell* find_larger(const RayEnd& place, int larger) const;
+  /// A new cell, for a key that has none.
+  void add(Key key, const Cell& cell);
+  /// Of the cells of a level.
+  double side(int level) const { return 1 / per_unit_[level]; }
 
   std::vector<Cell>& cells() { return cells_; }
   const std::vector<Cell>& cells() const { return cells_; }
 
  private:
-  int level_for(double distance) const;
-  Key key_at(const RayEnd& place, int level) const;
   std::size_t slot(Key key) const;
+  const Cell* at(const RayEnd& place, int level) const;
   void rebuild(std::size_t size);
 
   V3 centre_, offset_;       // of the grid: in world units, and in cells

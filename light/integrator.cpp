@@ -110,7 +110,9 @@ Integrator::Integrator(const LightWorld& world, std::span<const Point> points, c
   std::vector<Receiver> from;
   for (const Point& p : points) from.push_back(receiver(world, p));
   if (options.mode != IntegratorOptions::Mode::cached) return;
-  fill(s.cache, world, s.direct, from, options.rays, options.cache ? random_key(options.seed, 7) : options.seed);
+  const double n_points = options.points > 0 ? options.points : static_cast<double>(points.size());
+  fill(s.cache, world, s.direct, from, options.rays, n_points * options.rays,
+       options.cache ? random_key(options.seed, 7) : options.seed);
 }
 
 Integrator::~Integrator() = default;

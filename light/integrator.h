@@ -15,8 +15,9 @@ struct IntegratorOptions {
   enum class Mode : std::uint8_t { cached, path };
 
   Mode mode = Mode::cached;
-  int rays = 64;    // a point, and as many to emitters where there are any
-  double cell = 0;  // largest cell of the cache, world units; 0: a tenth of LightWorld::radius()
+  int rays = 64;      // a point, and as many to emitters where there are any
+  double cell = 0;    // largest cell of the cache, world units; 0: a tenth of LightWorld::radius()
+  double points = 0;  // that will be asked for: the more, the better the cache; 0: as many as it is made for
   std::uint64_t seed = 1;
   int cache = 0;  // 0 or 1: what the one has made of the light says nothing of the other, neither its noise nor where
                   // its cells end

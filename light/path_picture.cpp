@@ -1,7 +1,7 @@
 #include "light/path_picture.h"
 
 #include <algorithm>
-#include <array>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -22,23 +22,64 @@ void report(const LightWorld& world, Diagnostics& diag) {
   if (!world.has_sky_of_its_own()) diag.report(Diag::no_light, {});
 }
 
+/// What is seen at a pixel, one thing behind the other: with their shares, which are 1 together.
+class Layers {
+ public:
+  void add(std::size_t layer, double part, const V3& radiance) {
+    if (layer == layers_.size()) layers_.emplace_back();
+    layers_[layer].light += part * radiance;
+    layers_[layer].part += part;
+  }
+  void scale(double by) {
+    for (Layer& l : layers_) l = {by * l.light, by * l.part};
+  }
+
+  V3 light() const {
+    V3 sum;
+    for (const Layer& l : layers_) sum += l.light;
+    return sum;
+  }
+
+  /// Of a display: in VRML transparency is a share of the colours that are displayed, and browsers mix these.
+  V3 shown(double exposure) const {
+    V3 sum;
+    for (const Layer& l : layers_) {
+      const V3 light = (exposure / l.part) * l.light;
+      sum += l.part * V3(linear_to_srgb(light.x), linear_to_srgb(light.y), linear_to_srgb(light.z));
+    }
+    return sum;
+  }
+
+ private:
+  struct Layer {
+    V3 light;
+    double part = 0;
+  };
+  std::vector<Layer> layers_;
+};
+
 class Painter {
  public:
   Painter(const LightWorld& world, const drawing::Camera& camera, const PathOptions& options)
       : camera_(camera), options_(options), direct_(world), transport_(world, direct_, nullptr) {}
 
   /// Random numbers belong to a pixel, so that pixels may be done in any order.
-  V3 pixel(std::size_t x, std::size_t y) const {
+  Layers pixel(std::size_t x, std::size_t y) const {
     const int n = options_.samples;
-    RandomStream random(random_key(seed, y, x));
-    V3 sum;
+    const std::uint64_t key = random_key(seed, y, x);
+    RandomStream random(key);
+    Layers out;
     for (int v = 0; v < n; ++v)
       for (int u = 0; u < n; ++u) {
         const double px = static_cast<double>(x) + (u + random.next()) / n,
                      py = static_cast<double>(y) + (v + random.next()) / n;
-        sum += transport_.seen({camera_.eye, camera_.direction(px, py)}, random, options_.background);
+        std::size_t layer = 0;
+        transport_.each_seen({camera_.eye, camera_.direction(px, py)}, key, static_cast<std::uint32_t>(v * n + u),
+                             options_.background,
+                             [&](double part, const V3& radiance) { out.add(layer++, part, radiance); });
       }
-    return (1.0 / (n * n)) * sum;
+    out.scale(1.0 / (n * n));
+    return out;
   }
 
  private:
@@ -48,12 +89,8 @@ class Painter {
   Transport transport_;
 };
 
-using Pixel = std::array<float, 3>;  // linear
-
-V3 vec(const Pixel& p) { return {p[0], p[1], p[2]}; }
-
 /// Noise makes a logarithmic mean too low: the mean is taken of squares of pixels.
-double exposure_of(const std::vector<Pixel>& light, std::size_t width, std::size_t height) {
+double exposure_of(const std::vector<Layers>& seen, std::size_t width, std::size_t height) {
   constexpr std::size_t side = 8;
   LightMeter meter;
   for (std::size_t top = 0; top < height; top += side)
@@ -61,14 +98,14 @@ double exposure_of(const std::vector<Pixel>& light, std::size_t width, std::size
       double sum = 0;
       const std::size_t bottom = std::min(height, top + side), right = std::min(width, left + side);
       for (std::size_t y = top; y < bottom; ++y)
-        for (std::size_t x = left; x < right; ++x) sum += mean(vec(light[y * width + x]));
+        for (std::size_t x = left; x < right; ++x) sum += mean(seen[y * width + x].light());
       meter.add(sum / static_cast<double>((bottom - top) * (right - left)));
     }
   return meter.factor(middle_grey);
 }
 
-void show(const V3& light, std::uint8_t* pixel) {
-  for (double v : {light.x, light.y, light.z}) *pixel++ = static_cast<std::uint8_t>(linear_to_srgb(v) * 255 + 0.5);
+void show(const V3& display, std::uint8_t* pixel) {
+  for (double v : {display.x, display.y, display.z}) *pixel++ = static_cast<std::uint8_t>(v * 255 + 0.5);
 }
 
 }  // namespace
@@ -81,14 +118,14 @@ Image path_picture(const Scene& scene, const MeshSource& source, const drawing::
   const Painter painter(world, camera, options);
   const auto width = static_cast<std::size_t>(camera.width), n = width * static_cast<std::size_t>(camera.height);
   Image image{camera.width, camera.height, 3, std::vector<std::uint8_t>(n * 3)};
-  std::vector<Pixel> light(options.exposure.automatic ? n : 0);
+  std::vector<Layers> seen(options.exposure.automatic ? n : 0);
   auto paint = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      const V3 c = options.exposure.factor * painter.pixel(i % width, i / width);
-      if (light.empty())
-        show(c, &image.pixels[i * 3]);
+      Layers pixel = painter.pixel(i % width, i / width);
+      if (seen.empty())
+        show(pixel.shown(options.exposure.factor), &image.pixels[i * 3]);
       else
-        light[i] = {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z)};
+        seen[i] = std::move(pixel);
     }
   };
   const std::size_t n_blocks = (n + pixel_block - 1) / pixel_block, stretch = (n_blocks + stretches - 1) / stretches;
@@ -98,10 +135,10 @@ Image path_picture(const Scene& scene, const MeshSource& source, const drawing::
     if (options.done)
       options.done(static_cast<double>(std::min(b + stretch, n_blocks)) / static_cast<double>(n_blocks));
   }
-  if (light.empty()) return image;
-  const double factor = exposure_of(light, width, image.height);
+  if (seen.empty()) return image;
+  const double factor = exposure_of(seen, width, image.height);
   diag.report(Diag::light_exposure, {}, Exposure{.factor = factor}.print(), Exposure{.factor = factor}.print());
-  for (std::size_t i = 0; i < n; ++i) show(factor * vec(light[i]), &image.pixels[i * 3]);
+  for (std::size_t i = 0; i < n; ++i) show(seen[i].shown(factor), &image.pixels[i * 3]);
   return image;
 }
 

@@ -25,7 +25,8 @@ struct PathOptions {
 };
 
 /// What the world's own lights, emissive surfaces and Background make of it (LightWorld), without a headlight, averaged
-/// in linear light and shown through the sRGB curve, cut at 1. The backs of `solid` faces are seen through. Lines and
+/// in linear light and shown through the sRGB curve, cut at 1. What is behind something transparent is mixed with it as
+/// it is displayed, as browsers do. The backs of `solid` faces are seen through. Lines and
 /// points are not there, which is reported, as is a scene without light. The same bytes for any number of threads.
 /// O(pixels * samples^2
 /// * reflections) rays.

@@ -12,6 +12,17 @@ constexpr int lamp_rays = 2;
 
 }  // namespace
 
+bool see_one_another(const LightWorld& world, const Receiver& a, const Receiver& b) {
+  const double height = 0.25 * length(b.start - a.start);
+  const V3 from = a.start + height * a.face, way = b.start + height * b.face - from;
+  const double distance = length(way);
+  const auto is_free = [&](const V3& start, const V3& direction, double to) {
+    return !(to > 0) || world.transmittance({start, direction}, to) > 0;
+  };
+  return is_free(a.start, a.face, height) && is_free(b.start, b.face, height) &&
+         is_free(from, (1 / distance) * way, distance);
+}
+
 Arriving Transport::along(const Receiver& at, const Ray& ray, RandomStream& random, int depth,
                           bool all_emitters) const {
   Arriving out;
@@ -29,18 +40,18 @@ Arriving Transport::along(const Receiver& at, const Ray& ray, RandomStream& rand
   return out;
 }
 
-V3 Transport::seen(const Ray& ray, RandomStream& random, const std::optional<V3>& background) const {
-  V3 sum;
-  const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
-    if (s.inside)
-      s.alpha = 0;
-    else
-      sum += part * (s.emission + (1 / pi) * (s.albedo * irradiance(ray, hit, s, random, 1)));
-  });
-  return open > 0 ? sum + open * (background         ? *background
-                                  : world_.has_sky() ? world_.sky(ray.direction)
-                                                     : V3(0))
-                  : sum;
+/// What a surface reflects to whoever sees it, by path tracing.
+V3 Transport::shown(const Hit& hit, const SurfacePoint& s, RandomStream& random, const FirstChoices& first) const {
+  if (!(mean(s.albedo) > 0)) return {};
+  return (1 / pi) * (s.albedo * followed(receiver_at(hit, s), s.albedo, random, 1, &first));
+}
+
+const IrradianceCache::Cell* Transport::cell_at(const Ray& ray, const Hit& hit, const SurfacePoint& s,
+                                                int larger) const {
+  const IrradianceCache::RayEnd end{ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance};
+  if (const auto* own = cache_->find(end)) return own;
+  const auto* cell = cache_->find_larger(end, larger);
+  return cell && see_one_another(world_, receiver_at(hit, s), cell->place) ? cell : nullptr;
 }
 
 V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, RandomStream& random, int depth) const {
@@ -49,23 +60,22 @@ V3 Transport::irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, 
                        : depth <= certain
                            ? 2
                            : IrradianceCache::levels;  // the further back, the less a cell's size is seen
-    const IrradianceCache::Cell* cell =
-        cache_->find({ray.at(hit.distance), s.face, world_.stage().uses[hit.use].lights, hit.distance}, larger);
-    if (cell) return cell->irradiance();
+    if (const IrradianceCache::Cell* cell = cell_at(ray, hit, s, larger)) return cell->irradiance();
   }
   return followed(receiver_at(hit, s), s.albedo, random, depth);
 }
 
 /// An estimate from one more ray in a cosine direction and one to the emitters.
-V3 Transport::followed(const Receiver& at, const V3& albedo, RandomStream& random, int depth) const {
+V3 Transport::followed(const Receiver& at, const V3& albedo, RandomStream& random, int depth,
+                       const FirstChoices* first) const {
   Flux f;
   direct_.lamps(at, lamp_rays, random, f);
-  direct_.emitters(at, Lattice<3>(random.bits()), 0, 1, f);
+  direct_.emitters(at, first ? first->places : Lattice<3>(random.bits()), first ? first->ray : 0, 1, f);
   double survival = depth <= certain ? 1 : std::max({albedo.x, albedo.y, albedo.z});
   if (cache_ && depth > certain) survival = std::min(survival, survivors);
   if (depth == deepest || random.next() >= survival) return f.sum;
-  double u = random.next(), v = random.next();
-  V3 direction = cosine_direction(at.normal, u, v);
+  const auto [u, v] = first ? first->directions[first->ray] : std::array{random.next(), random.next()};
+  const V3 direction = cosine_direction(at.normal, u, v);
   if (!(dot(direction, at.face) > 0)) return f.sum;
   Arriving more = along(at, {at.start, direction}, random, depth);
   return f.sum + (pi / survival) * (more.direct + more.reflected);

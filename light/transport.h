@@ -1,6 +1,7 @@
 // What a ray brings back: light that is made where it ends, and light that is reflected there, by the cache where it
 // has a cell and by following the light further where not.
 #pragma once
+#include "base/math/random.h"
 #include "light/cache.h"
 #include "light/direct.h"
 
@@ -12,6 +13,20 @@ struct Arriving {
   V3 reflected;
   bool from_inside = false;  // the ray met the back of an opaque solid face: its start is within something
 };
+
+/// Where the light of what a camera sees is looked for first, for one of many rays of a pixel: together they are spread
+/// evenly.
+struct FirstChoices {
+  Lattice<2> directions;
+  Lattice<3> places;  // on emitters
+  std::uint32_t ray;
+
+  FirstChoices(std::uint64_t key, std::uint32_t r)
+      : directions(random_key(key, 1)), places(random_key(key, 2)), ray(r) {}
+};
+
+/// Looking from above the surfaces, so that one that is bent a little does not stand in the way.
+bool see_one_another(const LightWorld& world, const Receiver& a, const Receiver& b);
 
 class Transport {
  public:
@@ -26,9 +41,22 @@ class Transport {
     return along(at, ray, random, 0, all_emitters);
   }
 
-  /// Radiance that a camera sees along a ray; `background`: instead of the sky. The backs of solid faces let it
-  /// through.
-  V3 seen(const Ray& ray, RandomStream& random, const std::optional<V3>& background) const;
+  /// Calls f(part, radiance) for what a camera sees along a ray, one thing behind the other; `part` is its share of
+  /// what is seen. The last is the sky, or `background` instead of it. The backs of solid faces are seen through.
+  /// `key` is of the pixel, `number` of the ray in it.
+  template <class F>
+  void each_seen(const Ray& ray, std::uint64_t key, std::uint32_t number, const std::optional<V3>& background,
+                 F&& f) const {
+    RandomStream random(random_key(key, 0, number));
+    std::uint64_t layer = 0;
+    const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
+      if (s.inside)
+        s.alpha = 0;
+      else if (part > 0)
+        f(part, s.emission + shown(hit, s, random, {random_key(key, 1, layer++), number}));
+    });
+    if (open > 0) f(open, background ? *background : world_.has_sky() ? world_.sky(ray.direction) : V3(0));
+  }
 
   /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's
   /// light comes from there. An f that sets surface.alpha to 0 lets the ray pass. Returns the part that comes from the
@@ -64,6 +92,10 @@ class Transport {
     return 0;
   }
 
+  /// What the cache knows of a place that a ray met: its cell, or one that is up to `larger` times twice as large and
+  /// in sight. Null when there is none.
+  const IrradianceCache::Cell* cell_at(const Ray& ray, const Hit& hit, const SurfacePoint& s, int larger) const;
+
   /// The receiver of the light at a place that a ray met.
   Receiver receiver_at(const Hit& hit, const SurfacePoint& s) const {
     return {world_.off_surface(hit, s.face), s.face, world_.normal(hit, s.face), world_.stage().uses[hit.use].lights};
@@ -74,7 +106,9 @@ class Transport {
 
   Arriving along(const Receiver& at, const Ray& ray, RandomStream& random, int depth, bool all_emitters = false) const;
   V3 irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, RandomStream& random, int depth) const;
-  V3 followed(const Receiver& at, const V3& albedo, RandomStream& random, int depth) const;
+  V3 shown(const Hit& hit, const SurfacePoint& s, RandomStream& random, const FirstChoices& first) const;
+  V3 followed(const Receiver& at, const V3& albedo, RandomStream& random, int depth,
+              const FirstChoices* first = nullptr) const;
 
   const LightWorld& world_;
   const DirectLight& direct_;

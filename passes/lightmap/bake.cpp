@@ -78,14 +78,19 @@ std::vector<Inherited> inherit_all(std::vector<PageBaker>& pages, const std::vec
   return out;
 }
 
-/// A fair choice of the points that will be lit, for the cache of reflected light.
-std::vector<Point> choose_points(std::vector<PageBaker>& pages, const std::vector<Inherited>& inherited) {
+/// A point of each texel that will be lit.
+std::vector<Point> point_of_each(std::vector<PageBaker>& pages, const std::vector<Inherited>& inherited) {
   std::vector<Point> all;
   for (std::size_t i = 0; i < pages.size(); ++i)
     for (std::size_t tile = 0; tile < pages[i].n_tiles(); ++tile) {
       const auto& points = pages[i].points(tile, 1, 1, inherited[i].missing);
       all.insert(all.end(), points.begin(), points.end());
     }
+  return all;
+}
+
+/// A fair choice, for the cache of reflected light.
+std::vector<Point> some_of(std::vector<Point> all) {
   if (all.size() <= most_cache_points) return all;
   std::vector<Point> some;
   for (std::size_t i = 0; i < most_cache_points; ++i) some.push_back(all[i * all.size() / most_cache_points]);
@@ -406,11 +411,14 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
   for (const auto& p : layout.pages()) n_tiles += bakers.emplace_back(parts, p, world, options.directional).n_tiles();
   const auto inherited = inherit_all(bakers, parts, layout, options);
   if (ctx.monitor) ctx.monitor->begin(options.title + ": reflected light", 0, "");
-  const auto points = choose_points(bakers, inherited);
+  auto all = point_of_each(bakers, inherited);
+  const auto n_points = static_cast<double>(all.size()) * options.samples;
+  const auto points = some_of(std::move(all));
   std::vector<light::Integrator> integrators;
   for (int i = 0; i < (options.error > 0 ? 2 : 1) && !points.empty(); ++i) {
     light::IntegratorOptions how = options.integrator;
     how.cache = i;
+    how.points = n_points;
     integrators.emplace_back(world, points, how);
   }
   Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));

@@ -134,6 +134,33 @@ TEST_CASE("light: what is transparent lets light through") {
   CHECK(total(shut.irradiance(up, {.rays = 1})) == 0);
 }
 
+TEST_CASE("light: none gets through the wall between a room and a closet, however large the world is") {
+  std::string world = quad({-30, -30, -5}, {0, 60, 0}, {60, 0, 0}, material(0.5));
+  std::vector<Point> points;
+  std::vector<char> is_closet;
+  const auto add = [&](double x, double width, bool closet) {
+    const std::string box = cube(material(0.95), material(0.95));
+    world += fmt::format("Transform {{ translation {} 0 0 scale {} 3 2.5 children [ {} ] }}\n", x, width, box);
+    if (!closet) world += fmt::format("PointLight {{ location {} 1.5 2 attenuation 0 0 1 }}\n", x + 1.5);
+    const int n = closet ? 60 : 400;
+    Lattice<2> places(7);
+    for (int i = 0; i < n; ++i) {
+      const auto [u, v] = places[static_cast<std::uint32_t>(i)];
+      points.push_back({{x + u * width, 3 * v, 0}, {0, 0, 1}, {0, 0, 1}});
+      is_closet.push_back(closet);
+    }
+  };
+  for (int k = 0; k < 6; ++k) {
+    add(3.7 * k - 10, 3, false);
+    add(3.7 * k - 6.9, 0.5, true);
+  }
+  const auto light = Room(world).irradiance(points, {.rays = 64});
+  double room = 0, closet = 0;
+  for (std::size_t i = 0; i < light.size(); ++i) (is_closet[i] ? closet : room) += total(light[i]);
+  CHECK(room > 0);
+  CHECK(closet / 60 < 0.001 * room / 400);
+}
+
 TEST_CASE("light: among many panes of white glass under a white sky it is white everywhere") {
   // Each reflection meets eight panes, each of which reflects: were all followed, there would be no end.
   std::string panes;
