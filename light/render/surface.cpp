@@ -74,8 +74,8 @@ Surface Surfaces::make(NodeId appearance) {
 
 void Surfaces::further_pictures(Surface& s, const MaterialNode& m) {
   s.glow = layer(m.emissive_picture);
-  s.shadow = layer(m.occlusion_picture);
-  s.bumps = layer(m.normal_picture);
+  s.shadow = layer(m.occlusion_picture, Texture::Means::numbers);
+  s.bumps = layer(m.normal_picture, Texture::Means::numbers);
   s.bump_scale = m.normal_scale;
   s.shadow_strength = std::clamp(m.occlusion_strength, 0.0, 1.0);
 }
@@ -95,35 +95,36 @@ BakedLight Surfaces::baked_light(NodeId appearance) {
   b.places = read_texture_transform(scene_, scene_.get(appearance, f::lightmapTransform)).map();
   auto direction = scene_.get(appearance, f::lightmapDirection);
   if (direction.size() != b.direction.size()) return b;
-  std::ranges::transform(direction, b.direction.begin(), [&](NodeId n) { return layer(n); });
+  std::ranges::transform(direction, b.direction.begin(), [&](NodeId n) { return layer(n, Texture::Means::numbers); });
   if (!std::ranges::all_of(b.direction, [](const Layer& l) { return l.texture != nullptr; })) b.direction = {};
   return b;
 }
 
-Layer Surfaces::layer(NodeId n) {
+Layer Surfaces::layer(NodeId n, Texture::Means means) {
   if (!n) return {};
-  auto [at, is_new] = layers_.try_emplace(n.value);
-  if (is_new) at->second = make_layer(n);
+  auto [at, is_new] = layers_.try_emplace({n.value, means});
+  if (is_new) at->second = make_layer(n, means);
   return at->second;
 }
 
-Layer Surfaces::make_layer(NodeId n) {
+Layer Surfaces::make_layer(NodeId n, Texture::Means means) {
   if (scene_.is(n, nodes::PixelTexture)) {
     namespace f = nodes::pixel_texture;
-    return {Texture::make(image_of(scene_.get(n, f::image))), scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)};
+    return {Texture::make(image_of(scene_.get(n, f::image)), means), scene_.get(n, f::repeatS),
+            scene_.get(n, f::repeatT)};
   }
   if (!scene_.is(n, nodes::ImageTexture) || !resources_) return {};
   namespace f = nodes::image_texture;
   auto urls = scene_.get(n, f::url);
   if (urls.empty()) return {};
-  return {picture(resources_->image(urls, scene_.where(n), diag_)), scene_.get(n, f::repeatS),
+  return {picture(resources_->image(urls, scene_.where(n), diag_), means), scene_.get(n, f::repeatS),
           scene_.get(n, f::repeatT)};
 }
 
-std::shared_ptr<const Texture> Surfaces::picture(const std::shared_ptr<const Image>& image) {
+std::shared_ptr<const Texture> Surfaces::picture(const std::shared_ptr<const Image>& image, Texture::Means means) {
   if (!image) return nullptr;
-  auto [at, added] = textures_.try_emplace(image);
-  if (added) at->second = Texture::make(*image);
+  auto [at, added] = textures_.try_emplace({image, means});
+  if (added) at->second = Texture::make(*image, means);
   return at->second;
 }
 

@@ -72,20 +72,20 @@ class Surfaces {
 
  private:
   Surface make(NodeId appearance);
-  Layer layer(NodeId texture);
-  Layer make_layer(NodeId texture);
+  Layer layer(NodeId texture, Texture::Means means = Texture::Means::light);
+  Layer make_layer(NodeId texture, Texture::Means means);
   BakedLight baked_light(NodeId appearance);
   void further_pictures(Surface&, const MaterialNode&);
   void read_alpha_mode(Surface&, NodeId appearance) const;
-  std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image);
+  std::shared_ptr<const Texture> picture(const std::shared_ptr<const Image>& image, Texture::Means means);
 
   const Scene& scene_;
   Resources* resources_;
   Diagnostics& diag_;
   std::vector<Surface> surfaces_;
-  std::vector<std::uint32_t> index_;       // by NodeId; 0: not made yet
-  std::map<std::uint32_t, Layer> layers_;  // by NodeId
-  std::map<std::shared_ptr<const Image>, std::shared_ptr<const Texture>> textures_;
+  std::vector<std::uint32_t> index_;                                  // by NodeId; 0: not made yet
+  std::map<std::pair<std::uint32_t, Texture::Means>, Layer> layers_;  // by NodeId
+  std::map<std::pair<std::shared_ptr<const Image>, Texture::Means>, std::shared_ptr<const Texture>> textures_;
 };
 
 }  // namespace wrlkit::drawing

@@ -1,6 +1,7 @@
 #include "light/render/texture.h"
 
 #include <algorithm>
+#include <array>
 
 namespace wrlkit::drawing {
 namespace {
@@ -18,19 +19,33 @@ double reduced(double v, bool repeat) {
   return repeat ? v - std::floor(v) : std::clamp(v, 0.0, 1.0);
 }
 
+/// The display value whose light is the mean of that of four.
+std::uint8_t mean_of_light(const std::array<std::uint8_t, 4>& display) {
+  static const auto light = [] {
+    std::array<double, 256> out;
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = srgb_to_linear(static_cast<double>(v) / 255);
+    return out;
+  }();
+  if (std::ranges::all_of(display, [&](std::uint8_t v) { return v == display[0]; })) return display[0];
+  double sum = 0;
+  for (const std::uint8_t v : display) sum += light[v];
+  return static_cast<std::uint8_t>(255 * linear_to_srgb(sum / 4) + 0.5);
+}
+
 }  // namespace
 
-std::shared_ptr<const Texture> Texture::make(const Image& image) {
+std::shared_ptr<const Texture> Texture::make(const Image& image, Means means) {
   if (image.width <= 0 || image.height <= 0 || image.channels < 1 || image.channels > 4) return nullptr;
   if (image.pixels.size() < std::size_t(image.width) * image.height * image.channels) return nullptr;
   auto t = std::make_shared<Texture>();
   t->channels_ = image.channels;
   t->levels_.push_back({image.width, image.height, image.pixels});
-  while (t->levels_.back().width > 1 || t->levels_.back().height > 1) t->levels_.push_back(t->half(t->levels_.back()));
+  while (t->levels_.back().width > 1 || t->levels_.back().height > 1)
+    t->levels_.push_back(t->half(t->levels_.back(), means));
   return t;
 }
 
-Texture::Level Texture::half(const Level& from) const {
+Texture::Level Texture::half(const Level& from, Means means) const {
   Level to{std::max(1, from.width / 2), std::max(1, from.height / 2), {}};
   to.pixels.resize(std::size_t(to.width) * to.height * channels_);
   auto pixel = [&](int x, int y, int c) {
@@ -41,9 +56,12 @@ Texture::Level Texture::half(const Level& from) const {
   for (int y = 0; y < to.height; ++y)
     for (int x = 0; x < to.width; ++x)
       for (int c = 0; c < channels_; ++c) {
-        int sum = pixel(2 * x, 2 * y, c) + pixel(2 * x + 1, 2 * y, c) + pixel(2 * x, 2 * y + 1, c) +
-                  pixel(2 * x + 1, 2 * y + 1, c);
-        to.pixels[at++] = static_cast<std::uint8_t>((sum + 2) / 4);
+        const std::array<std::uint8_t, 4> four{pixel(2 * x, 2 * y, c), pixel(2 * x + 1, 2 * y, c),
+                                               pixel(2 * x, 2 * y + 1, c), pixel(2 * x + 1, 2 * y + 1, c)};
+        const bool is_alpha = has_alpha() && c == channels_ - 1;
+        to.pixels[at++] = means == Means::light && !is_alpha
+                              ? mean_of_light(four)
+                              : static_cast<std::uint8_t>((four[0] + four[1] + four[2] + four[3] + 2) / 4);
       }
   return to;
 }

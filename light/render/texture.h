@@ -18,8 +18,11 @@ struct Texel {
 
 class Texture {
  public:
+  /// What its smaller pictures are means of: of light, as display values of colours stand for it, or of the numbers.
+  enum class Means : std::uint8_t { light, numbers };
+
   /// Null when the picture has no pixels.
-  static std::shared_ptr<const Texture> make(const Image& image);
+  static std::shared_ptr<const Texture> make(const Image& image, Means means = Means::light);
 
   /// s to the right, t upwards, the picture in [0, 1]. `detail` is the number of its pixels that one sample spans.
   /// Where it does not repeat, the pixels of the border go on.
@@ -38,7 +41,7 @@ class Texture {
   struct Wrap {
     bool s, t;
   };
-  Level half(const Level& from) const;
+  Level half(const Level& from, Means means) const;
   void blend(const Level& level, double s, double t, Wrap wrap, double weight, double out[4]) const;
 
   int channels_ = 0;

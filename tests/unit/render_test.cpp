@@ -89,7 +89,7 @@ TEST_CASE("render: with one sample a pixel, a texture is averaged over the pixel
       "texture PixelTexture { image 4 1 1 0 255 0 255 } textureTransform TextureTransform { translation 0.003125 0 "
       "scale 40 160 }";
   auto image = s.render(view + shape(quad(-4, -4, 4, 4), "", stripes));
-  for (int x = 12; x < 88; ++x) CHECK(std::abs(pixel(image, x, 50)[0] - 127) <= 2);
+  for (int x = 12; x < 88; ++x) CHECK(std::abs(pixel(image, x, 50)[0] - 188) <= 2);  // half the light of white
 }
 
 TEST_CASE("render: an ImageTexture that cannot be had leaves the material") {
