@@ -6,27 +6,23 @@
 #include <functional>
 #include <iterator>
 #include <mutex>
-#include <new>
 #include <set>
 #include <unordered_map>
 
 #include "base/hashing.h"
 #include "base/parallel.h"
 #include "base/stop.h"
-#include "convert/nothing_shown.h"
 #include "convert/tiles/cell_keys.h"
 #include "convert/tiles/coarser.h"
 #include "convert/tiles/content.h"
+#include "convert/tiles/input_pieces.h"
 #include "convert/tiles/kept_tiles.h"
 #include "convert/tiles/option_key.h"
 #include "convert/tiles/plan.h"
-#include "convert/tiles/reading_progress.h"
-#include "convert/tiles/scene_pieces.h"
 #include "convert/tiles/staging.h"
 #include "convert/tiles/surface_error.h"
 #include "convert/tiles/tree.h"
 #include "geometry/space_cells.h"
-#include "parsers/resources.h"
 #include "writers/gltf/tolerance.h"
 
 namespace wrlkit {
@@ -55,7 +51,7 @@ class Making {
     bool made = false;
     try {
       const StopScope scope(ctx_.stop);
-      made = open() && gather(inputs) && make_all();
+      made = open() && input_.read(inputs, out_) && make_all();
     } catch (const Stopped&) {
     }
     out_.ending = reader_.ending(made);
@@ -67,20 +63,9 @@ class Making {
     if (!staging_.open(folder_, ctx_.diag)) return false;
     if (!kept_.open((fs::path(folder_) / ".wrlkit").string(), {options_.shard, options_.shards}, ctx_.diag))
       return false;
-    std::string why;
-    full_ = PieceStore::open(staging_.path(), why);
-    if (!full_) ctx_.diag.report(Diag::cannot_write, {}, staging_.path(), why);
-    return full_.has_value();
+    return input_.open(staging_.path());
   }
 
-  bool is_full(bool stored) {
-    if (!stored) ctx_.diag.report(Diag::cannot_write, {}, folder_, "the disk is full");
-    return !stored;
-  }
-
-  bool read_world(const std::string& path);
-  bool take(const TilesInput& input, SceneCounts& counts, bool& stored);
-  bool gather(std::span<const TilesInput> inputs);
   bool make_all();
   void plan();
   void take_kept();
@@ -100,7 +85,6 @@ class Making {
   bool make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& task);
   bool write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task& task);
   bool save(std::uint32_t cell, Task& task);
-  std::vector<PieceStore::Entry> entries_of(const Cell& cell) const;
   std::vector<Piece> pieces_of_cell(std::uint32_t cell) const;
   bool measure(std::uint32_t cell, Task& task);
   bool measure_rest();
@@ -119,78 +103,14 @@ class Making {
   Staging staging_;
   KeptTiles kept_;
   std::mutex keeping_;  // kept_
-  Looks looks_;
-  std::optional<PieceStore> full_;
-  std::vector<PieceStore::Entry> entries_;  // of full_
+  InputPieces input_{reader_, options_.triangles, folder_};
   Cells cells_;
   std::vector<Tile> made_;  // by cell
   Plan plan_{cells_, made_, options_};
   std::vector<std::uint32_t> turns_;  // by cell: leaves are counted, and of the others the largest that fit
   bool is_last_ = false;              // of the shards
-  std::unique_ptr<FileResources> pictures_;
   TilesMade out_;
 };
-
-bool Making::read_world(const std::string& path) {
-  if (!reader_.read(path)) return false;
-  report_undrawn(reader_.scene(), ctx_.diag);
-  return true;
-}
-
-/// The pieces of a file, all of them or none. False when it cannot be read, or does not fit into the memory; `stored`
-/// is false when the disk is full.
-bool Making::take(const TilesInput& input, SceneCounts& counts, bool& stored) {
-  const auto n_before = entries_.size();
-  auto mine = counts;
-  std::set<std::string> names;
-  std::size_t n_triangles = 0;
-  const auto put = [&](const Piece& piece) {
-    PieceStore::Entry entry{};
-    stored = full_->add(piece, entry);
-    entries_.push_back(entry);
-    n_triangles += piece.mesh.is_triangles() ? piece.mesh.n_faces() : 0;
-    names.insert(piece.name);
-    return stored;
-  };
-  bool read = false, is_too_large = false;
-  try {
-    read = read_world(input.path) && pieces_of(reader_, input.name, options_.triangles, looks_, put, mine);
-  } catch (const std::bad_alloc&) {
-    ctx_.diag.report(Diag::cannot_read, {}, input.path, "it needs more memory than there is");
-    entries_.resize(n_before);
-    is_too_large = true;
-  }
-  if (reader_) reader_.scene() = {};  // levels need the memory
-  if (is_too_large) return false;
-  counts = std::move(mine);
-  out_.triangles += n_triangles;
-  out_.parts += names.size();
-  return read;
-}
-
-bool Making::gather(std::span<const TilesInput> inputs) {
-  bool stored = true;
-  SceneCounts counts;
-  ReadingProgress progress(inputs, ctx_.monitor);
-  for (const auto& input : inputs) {
-    check_stop();
-    ++out_.n_files;
-    out_.n_failed += !take(input, counts, stored);
-    progress.next();
-    if (is_full(stored)) return false;
-    check_stop();
-  }
-  out_.n_cut = counts.n_cut;
-  out_.lost = std::move(counts.lost);
-  const auto& folders = looks_.picture_folders();
-  pictures_ = std::make_unique<FileResources>(ResourceOptions{.allowed = {folders.begin(), folders.end()}}, nullptr);
-  if (entries_.empty() && out_.n_failed < out_.n_files)
-    ctx_.diag.report(Diag::nothing_drawn, {},
-                     ctx_.diag.count(Diag::hidden_geometry) > 0
-                         ? "what there is, is in Switches that are off; use --show-all"
-                         : "there is no geometry in any of the files");
-  return !entries_.empty();
-}
 
 bool Making::for_each(std::span<const std::uint32_t> cells, const std::function<bool(std::uint32_t, Task&)>& f) {
   std::mutex mutex;
@@ -230,19 +150,19 @@ bool Making::make_all() {
 
 /// What there is to be made.
 void Making::plan() {
-  cells_ = planned_cells(entries_, looks_, options_);
+  cells_ = planned_cells(input_.entries(), input_.looks(), options_);
   made_.resize(cells_.cells.size());
   for (std::uint32_t i = 0; i < made_.size(); ++i) {
     const Cell& c = cells_.cells[i];
     for (auto k = c.begin; k < c.end; ++k) {
-      const auto& entry = entries_[cells_.order[k]];
+      const auto& entry = input_.entries()[cells_.order[k]];
       made_[i].n_full += entry.n_drawn;
       made_[i].n_stored += entry.bytes;
       if (c.children.empty()) made_[i].full_box.unite(entry.box);
     }
   }
   const auto top = [this](std::uint32_t i) { return plan_.top_of(i); };
-  const auto keys = keys_of_cells(cells_, entries_, looks_, option_key(options_), top);
+  const auto keys = keys_of_cells(cells_, input_.entries(), input_.looks(), option_key(options_), top);
   std::uint32_t n_leaves = 0, n_tops = 0;
   for (std::uint32_t i = 0; i < made_.size(); ++i) {
     made_[i].key = keys[i];
@@ -310,7 +230,7 @@ bool Making::make_group(std::uint32_t top) {
     auto& level = levels.emplace_back(CoarseLevel{count, {}});
     for (const auto i : cells) level.cells.push_back(group.ranges.at(i));
   }
-  auto coarse = coarser(group.pieces, levels, options_.triangles, looks_, ctx_);
+  auto coarse = coarser(group.pieces, levels, options_.triangles, input_.looks(), ctx_);
   for (auto k = group.levels.size(); k-- > 0;) {
     const auto make = [&](std::uint32_t i, Task& task) {
       return make_coarse(i, pieces_within(group, coarse[k], group.ranges.at(i)), task);
@@ -351,20 +271,14 @@ Making::Group Making::gather_group(std::uint32_t top) {
   return out;
 }
 
-/// In the order of the files, so that pieces of a part stand together.
-std::vector<PieceStore::Entry> Making::entries_of(const Cell& cell) const {
-  std::vector<std::uint32_t> order(cells_.order.begin() + cell.begin, cells_.order.begin() + cell.end);
-  std::ranges::sort(order);
-  std::vector<PieceStore::Entry> out;
-  for (const auto i : order) out.push_back(entries_[i]);
-  return out;
-}
-
+/// Of a full tile in the order of the files, so that pieces of a part stand together.
 std::vector<Piece> Making::pieces_of_cell(std::uint32_t cell) const {
   const Cell& c = cells_.cells[cell];
   if (!c.children.empty()) return read_pieces(kept_.pieces_path(made_[cell].key));
+  std::vector<std::uint32_t> order(cells_.order.begin() + c.begin, cells_.order.begin() + c.end);
+  std::ranges::sort(order);
   std::vector<Piece> out;
-  for (const auto& entry : entries_of(c)) out.push_back(full_->read(entry));
+  for (const auto i : order) out.push_back(input_.piece(i));
   return out;
 }
 
@@ -383,7 +297,7 @@ bool Making::make_coarse(std::uint32_t cell, std::vector<Piece> pieces, Task& ta
   for (const auto& p : pieces) drawn += n_drawn(p.mesh);
   if (const auto most = options_.triangles; drawn > most) {
     const CoarseLevel level{most, {{0, static_cast<std::uint32_t>(pieces.size())}}};
-    auto coarse = coarser(pieces, {&level, 1}, most, looks_, task);
+    auto coarse = coarser(pieces, {&level, 1}, most, input_.looks(), task);
     std::vector<Piece> fewer;
     for (auto& c : coarse[0]) {
       const Piece& from = pieces[c.from];
@@ -437,8 +351,8 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
   const auto path = kept_.tile_path(tile.key);
   // What is seen from afar can do with smaller pictures; full tiles have them as they are.
   const ContentBudget budget{options_.draws, plan_.is_leaf(cell) ? ~std::uint64_t{0} : options_.bytes};
-  if (!write_content(pieces, std::move(repeats), origin_of(made.box), looks_, gltf, budget, *pictures_, path, task.diag,
-                     summary))
+  if (!write_content(pieces, std::move(repeats), origin_of(made.box), input_.looks(), gltf, budget, input_.pictures(),
+                     path, task.diag, summary))
     return false;
   std::error_code fault;
   made.bytes = fs::file_size(path, fault);
@@ -492,7 +406,7 @@ std::vector<std::size_t> Making::shown_parts() const {
     for (std::uint32_t i = 0; i < made_.size(); ++i) {
       const Cell& c = cells_.cells[i];
       if (plan_.is_leaf(i) && c.depth <= depth)
-        for (auto k = c.begin; k < c.end; ++k) names.push_back(entries_[cells_.order[k]].name);
+        for (auto k = c.begin; k < c.end; ++k) names.push_back(input_.entries()[cells_.order[k]].name);
       else if (!plan_.is_leaf(i) && c.depth == depth)
         std::ranges::copy(read_names(kept_.pieces_path(made_[i].key)), std::back_inserter(names));
     }
