@@ -67,6 +67,14 @@ std::string expected(const FieldTypeInfo& t, FieldType type) {
   return {};
 }
 
+/// Whether nothing of a list of numbers gets lost as integers.
+bool is_whole(const py::object& value) {
+  const auto array = py::array::ensure(value);
+  if (!array || array.dtype().kind() != 'f') return static_cast<bool>(array);
+  const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
+  return std::all_of(numbers.data(), numbers.data() + numbers.size(), [](double v) { return std::trunc(v) == v; });
+}
+
 /// Whether an array holds tuples of so many numbers: one after the other, or each in a row of its own.
 bool fits(const py::array& array, std::size_t arity) {
   const auto last = array.ndim() > 0 ? static_cast<std::size_t>(array.shape(array.ndim() - 1)) : 1;
@@ -128,7 +136,7 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
         if (field.type == FieldType::SFBool) return scene.make(field.type, slot, value.cast<bool>());
         if (field.type == FieldType::SFInt32) return scene.make(field.type, slot, value.cast<std::int32_t>());
         const auto array = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>::ensure(value);
-        if (!array) throw wrong();
+        if (!array || !is_whole(value)) throw wrong();
         return scene.make(field.type, slot,
                           std::span<const std::int32_t>(array.data(), static_cast<std::size_t>(array.size())));
       }
@@ -144,7 +152,7 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
         std::vector<NodeId> ids;
         if (py::isinstance<PyNode>(value)) return scene.make(field.type, slot, std::vector{node_of(node, value)});
         if (!py::isinstance<py::iterable>(value) || py::isinstance<py::str>(value)) throw wrong();
-        for (auto item : value) ids.push_back(node_of(node, item));
+        for (auto item : value) ids.push_back(item.is_none() ? throw wrong() : node_of(node, item));
         return scene.make(field.type, slot, ids);
       }
     }

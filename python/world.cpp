@@ -200,6 +200,8 @@ py::object PyWorld::info(bool recognise) {
 }
 
 void PyWorld::report(const std::string& severity, const std::string& text, const py::object& node) {
+  if (!node.is_none() && !py::isinstance<PyNode>(node))
+    throw py::type_error("World.report(): 'node' should be a Node, not " + shown_value(node));
   const Span where = node.is_none() ? Span{} : scene().where(node.cast<const PyNode&>().id);
   if (severity == "error")
     diag().report(Diag::python_error, where, text);
@@ -225,7 +227,7 @@ std::vector<MessageView> convert(const std::string& source, const std::string& t
   Recipe recipe;
   if (!recipe_path.empty()) {
     auto read = read_recipe(recipe_path, why);
-    if (!read) throw py::value_error(why);
+    if (!read) throw py::value_error(why.substr(0, why.find_last_not_of('\n') + 1));
     recipe = std::move(*read);
   }
   if (pipeline && !Pipeline::parse(*pipeline, why)) throw py::value_error(why);

@@ -1,5 +1,6 @@
 // Types and sizes of pictures, from their first bytes.
 #include <algorithm>
+#include <utility>
 
 #include "base/image/image.h"
 #include "base/image/xbm.h"
@@ -187,7 +188,7 @@ std::string image_size_fault(std::int64_t width, std::int64_t height, std::size_
   if (width <= 0 || height <= 0) return "it has no pixels";
   if (width > max_image_side || height > max_image_side || width * height > max_image_pixels)
     return size + " are too many";
-  if (width * height > small && width * height / pixels_per_byte > static_cast<std::int64_t>(bytes))
+  if (width * height > small && std::cmp_greater(width * height / pixels_per_byte, bytes))
     return "its " + std::to_string(bytes) + " bytes cannot hold " + size;
   return {};
 }

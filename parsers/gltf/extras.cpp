@@ -53,6 +53,12 @@ std::pair<std::string_view, std::string_view> split(std::string_view s) {
   return point == s.npos ? std::pair{s, std::string_view{}} : std::pair{s.substr(0, point), s.substr(point + 1)};
 }
 
+/// Fields are written by their names in VRML97; those that only X3D has, by these.
+std::optional<std::uint16_t> slot_named(const NodeType& type, std::string_view name) {
+  const auto slot = type.find(name, Dialect::vrml97);
+  return slot ? slot : type.find(name, Dialect::x3d);
+}
+
 }  // namespace
 
 void Extras::bad(Json j, std::string_view what) { c_.diag().report(Diag::gltf_bad_extras, c_.file.where(j), what); }
@@ -265,7 +271,7 @@ void Extras::fields(NodeId n, Json all, Children& children) {
       is_proto ? proto_values(n, f) : declare_fields(n, f);
       continue;
     }
-    auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97);
+    auto slot = slot_named(c_.scene.type(n), f.key());
     if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) {
       bad(f, "a field");
       continue;
@@ -284,7 +290,7 @@ void Extras::fields(NodeId n, Json all, Children& children) {
 void Extras::plain_fields(NodeId n, Json all) {
   Children none_;
   for (Json f : all.is_object() ? all : Json()) {
-    auto slot = c_.scene.type(n).find(f.key(), Dialect::vrml97);
+    auto slot = slot_named(c_.scene.type(n), f.key());
     if (!slot || info(c_.scene.type(n).fields[*slot].type).element == Element::node) continue;
     if (auto v = value(c_.scene.type(n).fields[*slot].type, *slot, f, none_)) c_.scene.set(n, *v);
   }

@@ -356,6 +356,7 @@ TEST_CASE("Sizes that cannot be are refused before any memory is asked for", "[i
   CHECK_THAT(fault(claims(16000, 16000)), Catch::Contains("cannot hold 16000 x 16000 pixels"));
   CHECK(image_size_fault(16384, 16384, 100 << 20).empty());
   CHECK(image_size_fault(2048, 2048, 10).empty());
+  CHECK(image_size_fault(3000, 3000, SIZE_MAX).empty());
   CHECK(image_size_fault(0, 5, 10) == "it has no pixels");
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -98,7 +99,8 @@ std::optional<std::string> between(std::string_view text, std::string_view from,
 /// "0.1" of "0.100000".
 std::string plain_number(const std::string& text) {
   double value = 0;
-  return read_number(std::string_view(text), value) ? shortest_text(value) : text;
+  if (!read_number(std::string_view(text), value)) return text;
+  return std::trunc(value) == value ? fmt::format("{:.0f}", value) : shortest_text(value);
 }
 
 /// What CLI11 says of numbers of values, and of ranges.

@@ -119,10 +119,10 @@ void warn_of_files_outside(Session& s, const Output& to, const SaveOptions& opti
   std::string names;
   for (const auto& file : std::span(files).first(std::min(most, files.size())))
     names += (names.empty() ? "'" : ", '") + file + "'";
-  fmt::print(stderr,
-             "wrlkit: warning: standard output refers to {}{}, by urls from the folder of the input; --embed includes "
-             "pictures\n",
-             names, files.size() > most ? fmt::format(" and {} more", files.size() - most) : "");
+  fmt::print(
+      stderr,
+      "wrlkit: warning: standard output refers to {}{}, by urls from the folder of the input; --embed includes them\n",
+      names, files.size() > most ? fmt::format(" and {} more", files.size() - most) : "");
 }
 
 std::string facts_json(Session& s, const Output& to, const Saved& saved) {

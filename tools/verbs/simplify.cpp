@@ -347,6 +347,7 @@ int run_simplify(const Flags& flags) {
   const Names names = names_of(flags);
   if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, names.base + names.ending);
   WrittenWorlds all;
+  s.progress().begin("simplifying", 0, "");
   if (!simplify_world(s, *options, names, all)) return s.end(false);
   s.progress().clear();
   warn_of_idle_counts(flags, all);
