@@ -53,10 +53,12 @@ std::pair<std::string_view, std::string_view> split(std::string_view s) {
   return point == s.npos ? std::pair{s, std::string_view{}} : std::pair{s.substr(0, point), s.substr(point + 1)};
 }
 
-/// Fields are written by their names in VRML97; those that only X3D has, by these.
+/// Fields are written by their names in VRML97. `true` and `false` are never of a field that no type has: its values
+/// are texts and numbers. So they are of one that only X3D has.
 std::optional<std::uint16_t> slot_named(const NodeType& type, std::string_view name) {
-  const auto slot = type.find(name, Dialect::vrml97);
-  return slot ? slot : type.find(name, Dialect::x3d);
+  if (const auto slot = type.find(name, Dialect::vrml97)) return slot;
+  const auto slot = type.find(name, Dialect::x3d);
+  return slot && type.fields[*slot].type == FieldType::SFBool ? slot : std::nullopt;
 }
 
 }  // namespace
