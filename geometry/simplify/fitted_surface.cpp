@@ -15,6 +15,7 @@ constexpr std::size_t few_fitted_faces = 32;  // which are asked one by one
 constexpr std::size_t most_removable = 256;   // faces from which on none is taken out by itself
 constexpr double worth_asking_again = 0.9;    // share of the faces that are left since all were asked
 constexpr double most_asked_back = 64;        // points of a face
+constexpr double most_reach = 4;              // of a vertex, times the root of the mean square
 // Of the four parts of a triangle, as steps along two of its edges; the second is that of the triangle.
 constexpr std::array<double, 2> middles[] = {{1. / 6, 1. / 6}, {1. / 3, 1. / 3}, {2. / 3, 1. / 6}, {1. / 6, 2. / 3}};
 
@@ -114,6 +115,20 @@ void FittedSurface::measure_backward() {
     backward_[f] = backward(corners_of(face_[f], none, {}), &backward_all_);
     measure_edges(corners_of(face_[f], none, {}), 2 * spacing_, original_, surface_, backward_all_);
   }
+  double area = 0, squares = backward_all_.squares;
+  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+    area += samples_[s].weight;
+    squares += cost_of(s, squared_[s]);
+  }
+  reach_ = std::max(spacing_, most_reach * std::sqrt(squares / (2 * area)));
+}
+
+/// A thin face may have all its samples at one end: where the other end goes costs nothing, but it would be seen.
+Vec3 FittedSurface::within_reach(const Vec3& x) const {
+  const auto found = original_.nearest(x, {}, guess_);
+  if (found.triangle == ClosestPoint::no_guess || found.distance <= reach_) return x;
+  guess_ = found.triangle;
+  return x + (1 - reach_ / found.distance) * way_to(x, surface_[found.triangle]);
 }
 
 /// With `v` at `x`.
@@ -270,6 +285,7 @@ bool FittedSurface::evaluate(std::uint32_t u, std::uint32_t v) {
   after = forward(v, m.position, n, nullptr);
   for (int i = 0; i < 2; ++i) {
     Vec3 moved;
+    better = within_reach(better);
     const double cost = forward(v, better, n, i == 0 ? &moved : nullptr);
     if (cost >= after) break;
     after = cost;
@@ -440,6 +456,7 @@ void FittedSurface::refine(int rounds) {
       ask(2 * most_asked, position_[v]);
       Vec3 better;
       const double before = forward(v, position_[v], asked_.size(), &better);
+      better = within_reach(better);
       const double after = forward(v, better, asked_.size(), nullptr);
       m.position = better;
       if (after < before && !turns_over(v, v)) position_[v] = better;

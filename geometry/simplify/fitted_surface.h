@@ -66,6 +66,7 @@ class FittedSurface {
   void assign_all();
   void assign_again();
   void measure_backward();
+  Vec3 within_reach(const Vec3& x) const;
   void enqueue_all();
   bool next_step();
   void enqueue_edge(std::uint32_t u, std::uint32_t v);
@@ -102,6 +103,7 @@ class FittedSurface {
   std::priority_queue<Entry> queue_;
   std::size_t n_faces_ = 0, n_enqueued_ = 0;  // there are; there were when all steps were priced
   double spacing_ = 0;
+  double reach_ = 0;         // how far a vertex may be from the original
   Distortion backward_all_;  // when it was measured last
   mutable std::uint32_t guess_ = ClosestPoint::no_guess;
   // Of the question at hand.
