@@ -16,14 +16,15 @@ namespace wrlkit::tiles {
 
 class InputPieces {
  public:
-  /// `most`: triangles of a piece. Files are read through `reader`, whose messages are then those of all of them; a full
-  /// disk is reported as that of `set`.
+  /// `most`: triangles of a piece. Files are read through `reader`, whose messages are then those of all of them; a
+  /// full disk is reported as that of `set`.
   InputPieces(Document& reader, std::size_t most, const std::string& set) : reader_(reader), most_(most), set_(set) {}
 
   /// Makes the file on disk, in a folder. False, which is reported, when it cannot be made.
   bool open(const std::string& folder);
-  /// Reads the files one after the other; one that cannot be read, or does not fit into the memory, costs itself. Counts
-  /// files, triangles and parts in `made`. False, which is reported, when there are no pieces or the disk is full.
+  /// Reads the files one after the other; one that cannot be read, or does not fit into the memory, costs itself.
+  /// Counts files, triangles and parts in `made`. False, which is reported, when there are no pieces or the disk is
+  /// full.
   bool read(std::span<const TilesInput> inputs, TilesMade& made);
 
   /// In the order of the files.
