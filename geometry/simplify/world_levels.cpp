@@ -133,6 +133,15 @@ std::size_t WorldLevels::n_faces() const { return impl_->world.n_faces + impl_->
 std::size_t WorldLevels::n_parts() const { return impl_->world.parts.size(); }
 const std::vector<WorldLevels::Point>& WorldLevels::points() const { return impl_->points; }
 
+std::size_t WorldLevels::n_texts_as_faces() const {
+  const auto is_coarse = [&](const simplify::PlacedSurface& s) {
+    return s.whole && std::ranges::any_of(impl_->rungs, [&](const simplify::Rungs& at) {
+             return at[s.first_part] != 0 && at[s.first_part] != simplify::Allocation::gone;
+           });
+  };
+  return static_cast<std::size_t>(std::ranges::count_if(impl_->world.surfaces, is_coarse));
+}
+
 std::optional<std::size_t> WorldLevels::missed() const {
   if (impl_->world.n_left == 0) return std::nullopt;
   const auto counts = counts_of(impl_->options, n_drawn());

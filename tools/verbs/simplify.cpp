@@ -119,7 +119,8 @@ struct WrittenWorlds {
   std::size_t n_drawn = 0, n_faces = 0;
   std::vector<Written> points;
   std::string lod_file;
-  bool is_opened = false;  // prototypes and LODs are replaced by what they show
+  bool is_opened = false;   // prototypes and LODs are replaced by what they show
+  std::size_t n_texts = 0;  // that are faces in some of them
 };
 
 /// A number of triangles that was asked for, and that of the scene which was made for it.
@@ -152,7 +153,7 @@ std::string json_of(const WorldSimplifyOptions& options, const WrittenWorlds& al
       });
       json.member("asked", asked_of(options, all));
       if (!all.lod_file.empty()) json.member("lod", all.lod_file);
-      json.member("expanded", all.is_opened);
+      json.members("expanded", all.is_opened, "texts_as_faces", all.n_texts);
     });
   });
 }
@@ -182,6 +183,7 @@ void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) 
   if (all.is_opened)
     fmt::print(
         "to have few enough triangles, prototypes and LODs were replaced by what they show (not with -p weld)\n");
+  if (all.n_texts > 0) fmt::print("texts that became faces, and can no longer be searched: {}\n", all.n_texts);
   print_missed(options, all);
 }
 
@@ -199,6 +201,7 @@ std::size_t drawn_triangles(const Document& document, const LoadOptions& load) {
 WrittenWorlds facts_of(const WorldLevels& world) {
   WrittenWorlds all{world.n_drawn(), world.n_faces(), {}, {}};
   for (const auto& p : world.points()) all.points.push_back({{}, p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max});
+  all.n_texts = world.n_texts_as_faces();
   return all;
 }
 
@@ -281,6 +284,7 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
   const Scene& scene = s.world().scene;
   SilentTask silent(s.context());
   std::optional<Scene> expanded;
+  bool is_missed = false;
   if (options.errors.empty()) {
     options.text = OfText::take;
     expanded = expanded_scene(s);
@@ -290,7 +294,8 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
       s.diag().report(Diag::not_simplified, {},
                       fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
                                   WorldLevels::most_drawn));
-    if (world.missed() && !s.flags().pipeline_given && open_up(s)) {
+    is_missed = world.missed().has_value();
+    if (is_missed && !s.flags().pipeline_given && open_up(s)) {
       options.expanded = nullptr;
       const bool is_written = simplify_world(s, options, names, all);
       all.is_opened = true;
@@ -304,9 +309,10 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
   }
   const SimplifiedWorld world(scene, options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
-  if (options.errors.empty() && !is_reached(world, options)) {
+  if (options.errors.empty() && world.n_faces() > 0 && (is_missed || !is_reached(world, options))) {
     options.one_part = true;
     const WorldLevels farther(scene, options, silent);
+    farther.report_missed(s.diag());
     if (!farther.points().empty()) return write_worlds(s, farther, names, all);
   }
   return write_worlds(s, world, names, all);
@@ -349,6 +355,7 @@ int run_simplify(const Flags& flags) {
   WrittenWorlds all;
   s.progress().begin("simplifying", 0, "");
   if (!simplify_world(s, *options, names, all)) return s.end(false);
+  if (all.points.empty()) all.n_drawn = std::max(all.n_drawn, options->drawn);  // all of it may be what stays
   s.progress().clear();
   warn_of_idle_counts(flags, all);
   if (flags.json)
