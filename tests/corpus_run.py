@@ -81,7 +81,7 @@ def inputs(tmp):
     check('urls of files that get another name are those of what is written', all(w in whole for w in ('"sub/Part%20one.wrl#x"', '"gone.wrz" "sub/pipe.wrl"', '"whole.wrl"', '"http://example.org/a.wrz"', '"sub/pipe.wrl#P"'))
           and '"../whole.wrl"' in part and '"pipe.wrl"' in part, whole, part)
     for words, why in [((RECIPE, a, '-o', a), 'one of their own'), ((RECIPE, tmp / 'none', '-o', tmp / 'o'), 'no file or folder'), ((RECIPE, a, '-o', tmp / 'o', '--timeout', 'soon'), 'not a valid time'),
-                       ((RECIPE, a, '-o', tmp / 'o', '--shard', '3/2'), 'no shard'), ((tmp / 'no.toml', a, '-o', tmp / 'o'), 'no such file')]:
+                       ((RECIPE, a, '-o', tmp / 'o', '--shard', '3/2'), 'not a valid shard'), ((tmp / 'no.toml', a, '-o', tmp / 'o'), 'no such file')]:
         code, _, err = corpus(*words)
         check(f'wrong usage: {why}', code == (3 if why == 'no file or folder' else 2) and why in err, code, err)
 

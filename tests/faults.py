@@ -82,7 +82,8 @@ def disks(runs):
 
 
 def signals(runs):
-    """SIGINT, SIGTERM and SIGKILL at random moments: the output is not there, or as it was, or whole."""
+    """SIGINT, SIGTERM and SIGKILL at random moments: the output is not there, or as it was, or whole. What a killed run had no time to
+    remove, between the name of a new file and that of the output, the next one removes."""
     chance = random.Random(1)
     start = time.monotonic()
     runs.run('convert', ROOM, runs.folder / 'whole.glb')
@@ -99,6 +100,8 @@ def signals(runs):
         process.send_signal(which)
         code = process.wait()
         require(code in (0, -which), 'ended with', code, 'after', which.name)
+        if which == signal.SIGKILL and any(p != out for p in folder.iterdir()):
+            runs.run('convert', '-q', ROOM, out)
         runs.all_or_nothing(out, before)
     return ''
 
