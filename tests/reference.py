@@ -37,7 +37,8 @@ def agrees(reference, info):
 def read(wrlkit, paths):
     """Of each file what is in it; nothing of those that cannot be read, and of all that come behind a crash."""
     r = subprocess.run([wrlkit, 'info', '-q', '--json', *(os.path.join(corpus, path) for path in paths)], capture_output=True, timeout=300)
-    found = {info['file']: info for info in map(json.loads, r.stdout.splitlines())}
+    document = json.loads(r.stdout or '[]')  # an object where there is one file
+    found = {info['file']: info for info in (document if isinstance(document, list) else [document])}
     return [(path, found.get(os.path.join(corpus, path))) for path in paths]
 
 
