@@ -80,7 +80,7 @@ class Solver {
  private:
   void discover(std::span<const Receiver> from);
   void walk(Receiver at, RandomStream& random, std::vector<Meeting>& out) const;
-  std::vector<Meeting> make_cells(std::vector<Meeting> met);
+  std::vector<Meeting> make_cells(const std::vector<Meeting>& met);
   Cell cell_of(std::span<const Meeting* const> met) const;
   bool is_sound(std::span<const Meeting* const> met, const Places& places) const;
   void light_directly(std::size_t c);
@@ -125,7 +125,7 @@ void Solver::discover(std::span<const Receiver> from) {
 }
 
 /// What was met in cells that are not sound, to be looked for in smaller ones.
-std::vector<Meeting> Solver::make_cells(std::vector<Meeting> met) {
+std::vector<Meeting> Solver::make_cells(const std::vector<Meeting>& met) {
   std::vector<const Meeting*> order;
   for (const Meeting& m : met) order.push_back(&m);
   std::stable_sort(order.begin(), order.end(), [](const Meeting* a, const Meeting* b) { return a->key < b->key; });

@@ -1,7 +1,9 @@
 // Fields of nodes as Python values, and back, with the types of the node table.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <string_view>
 
 #include "base/text/nearest_name.h"
 #include "python/world.h"
@@ -70,9 +72,12 @@ std::string expected(const FieldTypeInfo& t, FieldType type) {
 /// Whether nothing of a list of numbers gets lost as integers.
 bool is_whole(const py::object& value) {
   const auto array = py::array::ensure(value);
-  if (!array || array.dtype().kind() != 'f') return static_cast<bool>(array);
+  if (!array || std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos) return false;
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
-  return std::all_of(numbers.data(), numbers.data() + numbers.size(), [](double v) { return std::trunc(v) == v; });
+  return std::all_of(numbers.data(), numbers.data() + numbers.size(), [](double v) {
+    return std::trunc(v) == v && v >= std::numeric_limits<std::int32_t>::min() &&
+           v <= std::numeric_limits<std::int32_t>::max();
+  });
 }
 
 /// Whether an array holds tuples of so many numbers: one after the other, or each in a row of its own.
@@ -136,7 +141,7 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
         if (field.type == FieldType::SFBool) return scene.make(field.type, slot, value.cast<bool>());
         if (field.type == FieldType::SFInt32) return scene.make(field.type, slot, value.cast<std::int32_t>());
         const auto array = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>::ensure(value);
-        if (!array || !is_whole(value)) throw wrong();
+        if (!is_whole(value) || !array) throw wrong();
         return scene.make(field.type, slot,
                           std::span<const std::int32_t>(array.data(), static_cast<std::size_t>(array.size())));
       }

@@ -49,15 +49,9 @@ class SurfaceSearch {
   void keep_below_levels() {
     std::vector<NodeId> levels;
     for (NodeId n : order_)
-      if (scene_.is(n, nodes::LOD) && (below_ == BelowLod::leave || has_coarser_level(n)))
+      if (scene_.is(n, nodes::LOD) && (below_ == BelowLod::leave || has_coarser_level(scene_, n)))
         for_each_child(scene_, n, [&](NodeId c) { levels.push_back(c); });
     for (NodeId n : reachable(scene_, levels)) kept_[n.value] = Kept::has_levels;
-  }
-
-  bool has_coarser_level(NodeId lod) const {
-    const auto& levels = scene_.get(lod, nodes::lod::children);
-    const auto draws = [&](NodeId n) { return scene_.is(n, nodes::Shape) || scene_.type(n).kind != NodeKind::builtin; };
-    return levels.size() > 1 && std::ranges::any_of(reachable(scene_, std::span(levels).subspan(1)), draws);
   }
 
   bool has_is(NodeId n) const {
@@ -100,6 +94,12 @@ class SurfaceSearch {
 };
 
 }  // namespace
+
+bool has_coarser_level(const Scene& scene, NodeId lod) {
+  const auto levels = scene.get(lod, nodes::lod::children);
+  const auto draws = [&](NodeId n) { return scene.is(n, nodes::Shape) || scene.type(n).kind != NodeKind::builtin; };
+  return levels.size() > 1 && std::ranges::any_of(reachable(scene, std::span(levels).subspan(1)), draws);
+}
 
 ShapeLeft report_not_simplified(const Scene& scene, Diagnostics& diag) {
   return [&](NodeId shape, const char* why) { diag.report(Diag::not_simplified, scene.where(shape), why); };

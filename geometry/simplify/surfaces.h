@@ -17,6 +17,10 @@ struct ShapeSurface {
 /// LOD that draws something else from afar (many have an empty second level, which only hides them), or none.
 enum class BelowLod : std::uint8_t { leave, leave_levels, take };
 
+/// Whether a LOD draws something from afar: of its levels behind the first, one holds a Shape or an instance of a
+/// prototype. O(nodes in it).
+bool has_coarser_level(const Scene& scene, NodeId lod);
+
 enum class OfText : std::uint8_t { leave, take };
 
 /// Is given each Shape with a surface that is left out, and why.

@@ -19,7 +19,7 @@ struct WorldSimplifyOptions {
   /// the same numbers; it says where surfaces are shown. None: there are no instances. It must outlive the levels.
   const Scene* expanded = nullptr;
   bool one_part = false;        // of WorldLevels: of a scene of one part, too
-  OfText text = OfText::leave;  // of WorldLevels; take: a Text is one part
+  OfText text = OfText::leave;  // of WorldLevels; take: letters are parts
   ScreenBudget budget;
 };
 

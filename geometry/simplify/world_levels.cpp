@@ -134,12 +134,11 @@ std::size_t WorldLevels::n_parts() const { return impl_->world.parts.size(); }
 const std::vector<WorldLevels::Point>& WorldLevels::points() const { return impl_->points; }
 
 std::size_t WorldLevels::n_texts_as_faces() const {
-  const auto is_coarse = [&](const simplify::PlacedSurface& s) {
-    return s.whole && std::ranges::any_of(impl_->rungs, [&](const simplify::Rungs& at) {
-             return at[s.first_part] != 0 && at[s.first_part] != simplify::Allocation::gone;
-           });
+  const auto is_changed = [&](const simplify::PlacedSurface& s) {
+    return s.is_text &&
+           std::ranges::any_of(impl_->rungs, [&](const auto& at) { return impl_->world.is_changed(s, at); });
   };
-  return static_cast<std::size_t>(std::ranges::count_if(impl_->world.surfaces, is_coarse));
+  return static_cast<std::size_t>(std::ranges::count_if(impl_->world.surfaces, is_changed));
 }
 
 std::optional<std::size_t> WorldLevels::missed() const {

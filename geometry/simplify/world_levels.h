@@ -37,7 +37,7 @@ class WorldLevels {
     double rms = 0, max = 0;
   };
   const std::vector<Point>& points() const;
-  /// Texts that are faces at some point, so that their words are lost.
+  /// Texts that are faces at some point, or gone, so that their words are lost.
   std::size_t n_texts_as_faces() const;
   /// The first number of triangles that what stays as it is keeps from being reached.
   std::optional<std::size_t> missed() const;

@@ -76,12 +76,6 @@ std::uint64_t most_places(std::span<const PlacedSurface> surfaces) {
   return low;
 }
 
-std::vector<std::vector<std::uint32_t>> one_piece(const Mesh& mesh) {
-  std::vector<std::uint32_t> faces(mesh.n_faces());
-  std::iota(faces.begin(), faces.end(), 0u);
-  return {std::move(faces)};
-}
-
 /// Leaves out what is not the same in both scenes.
 void keep_surfaces_of(const Scene& original, OfText text, std::vector<ShapeSurface>& found) {
   const auto surfaces = surfaces_of(original, {}, BelowLod::leave_levels, text);
@@ -119,7 +113,7 @@ void WorldParts::read(const Scene& original, OfText text, Task& ctx) {
   for (const auto& s : found) {
     reader.read(s, mesh);
     borders.add(mesh);
-    surfaces.push_back({.surface = s, .mesh = std::move(mesh), .whole = is_text(s)});
+    surfaces.push_back({.surface = s, .mesh = std::move(mesh), .is_text = is_text(s)});
   }
   auto fixed = borders.find(scene_, found);
   for (std::size_t i = 0; i < surfaces.size(); ++i) surfaces[i].fixed = std::move(fixed[i]);
@@ -167,16 +161,19 @@ void WorldParts::count_left(const ShownTimes& shown, const std::vector<ShapeSurf
   std::map<std::uint32_t, std::string_view> cause;  // by Shape
   const auto keep_cause = [&](NodeId shape, const char* why) { cause[shape.value] = why; };
   surfaces_of(scene_, keep_cause, BelowLod::leave_levels, text);
-  auto others = surfaces_of(scene_, {}, BelowLod::take, OfText::take);
   std::vector<char> is_taken(scene_.node_count());
   for (const auto& s : taken) is_taken[s.geometry.value] = 1;
-  std::erase_if(others, [&](const ShapeSurface& s) { return is_taken[s.geometry.value] != 0; });
   Mesh mesh;
-  for (const auto& s : others) {
+  const auto count = [&](const ShapeSurface& s, std::string_view why) {
+    if (!s.geometry || is_taken[s.geometry.value]) return;
     reader.read(s, mesh);
-    const auto known = cause.find(s.shapes[0].value);
-    leave(saturating_multiply(mesh.n_faces(), shown.of(s)),
-          known == cause.end() ? "made by prototypes (-p expand,weld helps)" : known->second);
+    leave(saturating_multiply(mesh.n_faces(), shown.of(s)), why);
+  };
+  for (const auto& [shape, why] : cause)
+    count({scene_.get(NodeId{shape}, nodes::shape::geometry), {NodeId{shape}}}, why);
+  for (auto& s : surfaces_of(scene_, {}, BelowLod::take, OfText::take)) {
+    std::erase_if(s.shapes, [&](NodeId shape) { return cause.contains(shape.value); });
+    if (!s.shapes.empty()) count(s, "made by prototypes (-p expand,weld helps)");
   }
 }
 
@@ -203,8 +200,7 @@ void WorldParts::cut() {
   for (std::uint32_t i = 0; i < surfaces.size(); ++i) {
     auto& s = surfaces[i];
     s.first_part = static_cast<std::uint32_t>(parts.size());
-    for (auto& faces : s.whole ? one_piece(s.mesh) : connected_pieces(s.mesh))
-      parts.push_back({.surface = i, .faces = std::move(faces)});
+    for (auto& faces : connected_pieces(s.mesh)) parts.push_back({.surface = i, .faces = std::move(faces)});
     s.n_parts = static_cast<std::uint32_t>(parts.size()) - s.first_part;
   }
   allocated.resize(parts.size());
@@ -271,8 +267,7 @@ WorldParts::Candidate WorldParts::candidate(std::uint32_t part) const {
   Candidate out{in_metres(parts[part], &options), {}, 0, false};
   const auto attributes = out.mesh.attributes();
   out.fixed = std::move(options.fixed);
-  const bool whole = surfaces[parts[part].surface].whole;
-  out.plain = !whole && std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
+  out.plain = std::ranges::none_of(attributes, [](const Attribute* a) { return a->present(); });
   out.hash = hash_of_corners(out.mesh);
   return out;
 }
@@ -321,7 +316,7 @@ struct WorldParts::Surroundings {
 /// Of two that hide one another, the larger one stays.
 bool WorldParts::yields(std::uint32_t owner, std::uint32_t other) const {
   const auto part = part_of_[owner], other_part = part_of_[other];
-  if (surfaces[parts[other_part].surface].whole) return false;  // it may be thin, as letters are
+  if (surfaces[parts[other_part].surface].is_text) return false;  // it may be thin, as letters are
   return std::pair(parts[part].area, owner) < std::pair(parts[other_part].area, other);
 }
 

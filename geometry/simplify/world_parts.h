@@ -18,14 +18,14 @@ struct PlacedSurface {
   double scale = 1;              // metres of the world for its unit, there
   std::vector<std::uint32_t> fixed{};
   std::uint32_t look = 0;
-  bool whole = false;  // one part, however many pieces: a Text, whose letters leave together
+  bool is_text = false;
   std::uint32_t first_part = 0, n_parts = 0;
 
   /// Places that each of `some` stands for.
   double each(std::size_t some) const { return static_cast<double>(n_places) / static_cast<double>(some); }
 };
 
-/// A piece of a surface, or a Text. Pieces of like form have one ladder.
+/// A piece of a surface, such as a letter. Pieces of like form have one ladder.
 struct WorldPart {
   std::uint32_t surface;
   std::vector<std::uint32_t> faces;

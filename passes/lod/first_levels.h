@@ -4,8 +4,9 @@
 
 namespace wrlkit {
 
-/// Removes the other levels of each LOD, and its ranges; not of those whose other levels hold more than what is drawn
-/// from afar: ends of ROUTEs, Scripts, Viewpoints and other bound nodes, lights. How many had others. O(nodes in LODs).
+/// Removes the other levels of each LOD, and its ranges, where nothing but forms is lost: not where they hold anything
+/// else (Viewpoints, sensors, sounds, ends of ROUTEs), where events change the LOD, where it only hides (the others are
+/// empty), or where its first level is empty. The number of those that were cut. O(nodes in LODs).
 std::size_t keep_first_levels(Scene& scene);
 
 }  // namespace wrlkit

@@ -167,14 +167,12 @@ Outcome lods_of_world(Scene& scene, const LodOptions& options, PassContext& ctx)
 }
 
 void report_inlines(const Scene& scene, Diagnostics& diag) {
-  const auto n =
-      std::ranges::count_if(reachable(scene, scene.main), [&](NodeId n) { return scene.is(n, nodes::Inline); });
-  if (n > 0) diag.report(Diag::not_simplified, {}, fmt::format("surfaces of {} Inlines; use '-p inline,lod'", n));
+  std::vector<NodeId> inlines = reachable(scene, scene.main);
+  std::erase_if(inlines, [&](NodeId n) { return !scene.is(n, nodes::Inline); });
+  if (inlines.empty()) return;
+  const auto text = inlines.size() == 1 ? "an Inline" : std::to_string(inlines.size()) + " Inlines";
+  diag.report(Diag::not_simplified, scene.where(inlines[0]), "the surfaces of " + text + "; use '-p inline,lod'");
 }
-
-}  // namespace
-
-namespace {
 
 std::string with_colons(const std::vector<double>& values) {
   std::string out;

@@ -61,11 +61,12 @@ Shapes in the bodies of prototypes get levels, too.
 - Open borders that several parts share stay as they are, so parts meet at every level.
 - Shared Shapes and shared geometries are simplified once. All levels share the Appearance.
 - Left unchanged: Shapes below an authored LOD; Shapes whose geometry is text, lines or points; geometry that a ROUTE or
-  IS leads to; all other nodes. The Shape keeps its name; the LOD takes its place in the parent.
+  IS leads to; what Inlines show, which is reported; all other nodes. The Shape keeps its name; the LOD takes its place
+  in the parent.
 
 With `scope=group`, the innermost groups with several Shapes become LODs, and other Shapes get a LOD of their own. The
 triangles of a level are shared out among all parts of the scene by measured distance (docs/plants.md), and small parts
-disappear. A further level is an unnamed copy of the group; it copies only what differs and shares the rest with the
+disappear. Text counts as a part, whose further levels are faces. A further level is an unnamed copy of the group; it copies only what differs and shares the rest with the
 first. Viewpoints and other bindable nodes are in the first level only. A group that a ROUTE reaches is not copied: the
 groups and Shapes below it get LODs of their own.
 

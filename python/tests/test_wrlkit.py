@@ -198,6 +198,8 @@ def test_wrong_arguments_are_named(tmp_path):
         r'Group.children is an MFNode: a list of Nodes, not int 5': lambda: world.add('Group', children=5),
         r'Group.children is an MFNode: a list of Nodes, not list \[None\]': lambda: world.add('Group', children=[None]),
         r'IndexedFaceSet.coordIndex is an MFInt32: a list of ints, not list \[0.5, 1\]': lambda: world.add('IndexedFaceSet', coordIndex=[0.5, 1]),
+        r'IndexedFaceSet.coordIndex is an MFInt32: a list of ints, not list \[4294967296\]': lambda: world.add('IndexedFaceSet', coordIndex=[2**32]),
+        r"IndexedFaceSet.coordIndex is an MFInt32: a list of ints, not list \['1'\]": lambda: world.add('IndexedFaceSet', coordIndex=['1']),
         r"World.report\(\): 'node' should be a Node, not str 'x'": lambda: world.report('warning', 'text', 'x'),
         r'World.roots is a list of Nodes, not int 5': lambda: setattr(world, 'roots', 5),
         r'Node.name is a str, not int 5': lambda: setattr(world.roots[0], 'name', 5),

@@ -1,5 +1,6 @@
 #include "tools/cli/cli.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 #include <unistd.h>
 

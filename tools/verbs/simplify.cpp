@@ -11,6 +11,7 @@
 #include "base/silent_task.h"
 #include "base/text/json.h"
 #include "convert/geometry_census.h"
+#include "convert/missing_files.h"
 #include "convert/placing.h"
 #include "convert/save.h"
 #include "convert/world_meshes.h"
@@ -135,10 +136,10 @@ struct Asked {
 
 std::vector<Asked> asked_of(const WorldSimplifyOptions& options, const WrittenWorlds& all) {
   std::vector<Asked> out;
-  if (all.points.empty()) return out;
+  const auto fewest = all.points.empty() ? all.n_drawn : all.points.back().n_drawn;
   for (const auto count : counts_of(options, all.n_drawn)) {
     const auto point = std::ranges::find_if(all.points, [&](const Written& p) { return p.n_drawn <= count; });
-    out.push_back({count, (point == all.points.end() ? all.points.back() : *point).n_drawn});
+    out.push_back({count, point == all.points.end() ? fewest : point->n_drawn});
   }
   return out;
 }
@@ -188,12 +189,10 @@ void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) 
 }
 
 /// As `info` counts them. Messages about them come when they are simplified.
-std::size_t drawn_triangles(const Document& document, const LoadOptions& load) {
+std::size_t drawn_triangles(const Document& document) {
   Document copy(document.copy());
   Diagnostics unheard(copy.diag().shared_sources());
   Document silent({.scene = copy.scene()}, PassContext{unheard, copy.context().stats, copy.resources()});
-  if (load.show_all) show_all(silent.scene());
-  if (load.run_startup) run_startup(silent.scene(), silent.context());
   const WorldMeshes meshes(silent);
   return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
 }
@@ -242,26 +241,26 @@ bool write_worlds(Session& s, const World& world, const Names& names, WrittenWor
   return write_world(s, all.lod_file, world.scene_with_levels());
 }
 
-/// Instances of prototypes replaced by their bodies; nothing when there are none.
+/// Instances of prototypes replaced by their bodies; nothing when there are none, or too many.
 std::optional<Scene> expanded_scene(Session& s) {
   Scene out = s.world().scene;
-  Diagnostics unheard(s.diag().shared_sources());
   Statistics uncounted;
-  PassContext silent(unheard, uncounted, &s.resources());
-  if (expand_protos(out, {}, silent) == Outcome::unchanged) return std::nullopt;
+  PassContext ctx(s.diag(), uncounted, &s.resources());
+  if (expand_protos(out, {}, ctx) == Outcome::unchanged || s.diag().count(Diag::expansion_limit) > 0)
+    return std::nullopt;
   return out;
 }
 
-/// Replaces instances of prototypes by their bodies, and LODs by their first levels, which then are Shapes as others.
-/// False when there are none.
-bool open_up(Session& s) {
-  Scene& scene = s.world().scene;
-  Diagnostics unheard(s.diag().shared_sources());
-  PassContext ctx(unheard, s.context().stats, &s.resources());
-  const bool has_expanded = expand_protos(scene, {}, ctx) == Outcome::changed;
-  if (keep_first_levels(scene) == 0 && !has_expanded) return false;
+/// Replaces instances of prototypes by their bodies, which `expanded` has, and LODs by their first levels: they are
+/// Shapes as others then. False when there are none.
+bool open_up(Session& s, std::optional<Scene>& expanded) {
+  Scene opened = expanded ? std::move(*expanded) : s.world().scene;
+  if (keep_first_levels(opened) == 0 && !expanded) return false;
+  s.world().scene = std::move(opened);
   std::string why;
-  return Pipeline::parse("weld", why)->run(scene, ctx, {});
+  Diagnostics unheard(s.diag().shared_sources());  // the same was welded before
+  PassContext ctx(unheard, s.context().stats, &s.resources());
+  return Pipeline::parse("weld", why)->run(s.world().scene, ctx, {});
 }
 
 /// Whether the last world has as few triangles as were asked for.
@@ -280,7 +279,7 @@ void warn_of_idle_counts(const Flags& flags, const WrittenWorlds& all) {
 
 /// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
 /// surface for itself, unless the criterion does not go as far as was asked.
-bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names, WrittenWorlds& all) {
+bool simplify_world(Session& s, WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;
   SilentTask silent(s.context());
   std::optional<Scene> expanded;
@@ -288,15 +287,15 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
   if (options.errors.empty()) {
     options.text = OfText::take;
     expanded = expanded_scene(s);
-    if (expanded) options.expanded = &*expanded;
+    options.expanded = expanded ? &*expanded : nullptr;
+    options.drawn = drawn_triangles(s.document());  // after what is missing was reported
     const WorldLevels world(scene, options, silent);
     if (world.n_drawn() > WorldLevels::most_drawn)
       s.diag().report(Diag::not_simplified, {},
                       fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
                                   WorldLevels::most_drawn));
     is_missed = world.missed().has_value();
-    if (is_missed && !s.flags().pipeline_given && open_up(s)) {
-      options.expanded = nullptr;
+    if (is_missed && !s.flags().pipeline_given && open_up(s, expanded)) {
       const bool is_written = simplify_world(s, options, names, all);
       all.is_opened = true;
       return is_written;
@@ -309,7 +308,8 @@ bool simplify_world(Session& s, WorldSimplifyOptions options, const Names& names
   }
   const SimplifiedWorld world(scene, options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
-  if (options.errors.empty() && world.n_faces() > 0 && (is_missed || !is_reached(world, options))) {
+  if (options.errors.empty() && world.n_faces() > 0 &&
+      (is_missed || !is_reached(world, options) || options.drawn != world.n_faces())) {
     options.one_part = true;
     const WorldLevels farther(scene, options, silent);
     farther.report_missed(s.diag());
@@ -347,11 +347,11 @@ int run_simplify(const Flags& flags) {
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (s.printed_pipeline()) return done;
   if (!s.read(flags.inputs[0])) return s.end(false);
-  if (options->errors.empty() && !flags.progressive) options->drawn = drawn_triangles(s.document(), flags.load);
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
   const Names names = names_of(flags);
   if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, names.base + names.ending);
+  if (names.file.empty()) report_missing_parts(s.world().scene, s.resources(), s.diag());  // as save() does
   WrittenWorlds all;
   s.progress().begin("simplifying", 0, "");
   if (!simplify_world(s, *options, names, all)) return s.end(false);
