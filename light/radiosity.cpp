@@ -18,7 +18,7 @@ constexpr std::ptrdiff_t often = 4;  // meetings that make a cell known
 constexpr int near = 2;              // reflections outside of cells after which any cell will do, however large
 constexpr std::size_t most_places = 1 << 20, fewest_places = 8;  // of all cells; of one
 constexpr int most_rays = 2048;                                  // of a cell
-constexpr double share = 1. / 16;                                // of the work that the cells are for
+constexpr double share_of_cells = 1. / 16;                       // of the work that the cells are for
 
 /// How well the cells are known.
 struct Effort {
@@ -67,7 +67,7 @@ class Solver {
 
   void run(std::span<const Receiver> from) {
     discover(from);
-    const double each = share * work_ / static_cast<double>(std::max<std::size_t>(1, places_.size()));
+    const double each = share_of_cells * work_ / static_cast<double>(std::max<std::size_t>(1, places_.size()));
     rays_ = static_cast<int>(std::clamp<double>(each, effort_.rays, most_rays));
     in_blocks(cache_.cells().size(), [&](std::size_t c) { light_directly(c); });
     auto& cells = cache_.cells();
