@@ -130,6 +130,7 @@ WorldLevels::~WorldLevels() = default;
 static_assert(WorldLevels::most_drawn == simplify::WorldParts::most_drawn);
 std::size_t WorldLevels::n_drawn() const { return impl_->drawn(); }
 std::size_t WorldLevels::n_faces() const { return impl_->world.n_faces + impl_->world.n_left; }
+bool WorldLevels::is_drawn_once() const { return impl_->world.n_drawn == impl_->world.n_faces; }
 std::size_t WorldLevels::n_parts() const { return impl_->world.parts.size(); }
 const std::vector<WorldLevels::Point>& WorldLevels::points() const { return impl_->points; }
 

@@ -25,6 +25,8 @@ class WorldLevels {
   /// Triangles of the surfaces in all places that are shown, and each surface once.
   std::size_t n_drawn() const;
   std::size_t n_faces() const;
+  /// Whether each surface is in one place.
+  bool is_drawn_once() const;
   /// Of a scene that draws more there are no parts and no points.
   static constexpr std::size_t most_drawn = 1'000'000'000'000'000;
   /// Connected pieces of surfaces, each once.

@@ -188,11 +188,13 @@ void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) 
   print_missed(options, all);
 }
 
-/// As `info` counts them. Messages about them come when they are simplified.
-std::size_t drawn_triangles(const Document& document) {
-  Document copy(document.copy());
-  Diagnostics unheard(copy.diag().shared_sources());
-  Document silent({.scene = copy.scene()}, PassContext{unheard, copy.context().stats, copy.resources()});
+/// As `info` counts those of the document that was read. Nothing is reported, nor will it be when it is asked for
+/// again: for after the passes have run.
+std::size_t drawn_triangles(Document& as_read, const LoadOptions& load) {
+  Diagnostics unheard(as_read.diag().shared_sources());
+  Document silent({.scene = as_read.scene()}, PassContext{unheard, as_read.context().stats, as_read.resources()});
+  if (load.show_all) show_all(silent.scene());
+  if (load.run_startup) run_startup(silent.scene(), silent.context());
   const WorldMeshes meshes(silent);
   return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
 }
@@ -279,24 +281,27 @@ void warn_of_idle_counts(const Flags& flags, const WrittenWorlds& all) {
 
 /// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
 /// surface for itself, unless the criterion does not go as far as was asked.
-bool simplify_world(Session& s, WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
+bool simplify_world(Session& s, Document& as_read, WorldSimplifyOptions& options, const Names& names,
+                    WrittenWorlds& all) {
   const Scene& scene = s.world().scene;
   SilentTask silent(s.context());
   std::optional<Scene> expanded;
   bool is_missed = false;
+  std::size_t n_drawn_once = 0;  // triangles, where all surfaces are drawn, each in one place
   if (options.errors.empty()) {
     options.text = OfText::take;
     expanded = expanded_scene(s);
     options.expanded = expanded ? &*expanded : nullptr;
-    options.drawn = drawn_triangles(s.document());  // after what is missing was reported
+    if (options.drawn == 0) options.drawn = drawn_triangles(as_read, s.flags().load);
     const WorldLevels world(scene, options, silent);
     if (world.n_drawn() > WorldLevels::most_drawn)
       s.diag().report(Diag::not_simplified, {},
                       fmt::format("a world of more than {} triangles as a whole, but each surface by itself",
                                   WorldLevels::most_drawn));
     is_missed = world.missed().has_value();
+    n_drawn_once = world.is_drawn_once() ? world.n_faces() : 0;
     if (is_missed && !s.flags().pipeline_given && open_up(s, expanded)) {
-      const bool is_written = simplify_world(s, options, names, all);
+      const bool is_written = simplify_world(s, as_read, options, names, all);
       all.is_opened = true;
       return is_written;
     }
@@ -309,7 +314,7 @@ bool simplify_world(Session& s, WorldSimplifyOptions& options, const Names& name
   const SimplifiedWorld world(scene, options, s.context());
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
   if (options.errors.empty() && world.n_faces() > 0 &&
-      (is_missed || !is_reached(world, options) || options.drawn != world.n_faces())) {
+      (is_missed || !is_reached(world, options) || n_drawn_once != world.n_faces())) {
     options.one_part = true;
     const WorldLevels farther(scene, options, silent);
     farther.report_missed(s.diag());
@@ -347,6 +352,7 @@ int run_simplify(const Flags& flags) {
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (s.printed_pipeline()) return done;
   if (!s.read(flags.inputs[0])) return s.end(false);
+  Document as_read(s.document().copy());
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
 
   const Names names = names_of(flags);
@@ -354,7 +360,7 @@ int run_simplify(const Flags& flags) {
   if (names.file.empty()) report_missing_parts(s.world().scene, s.resources(), s.diag());  // as save() does
   WrittenWorlds all;
   s.progress().begin("simplifying", 0, "");
-  if (!simplify_world(s, *options, names, all)) return s.end(false);
+  if (!simplify_world(s, as_read, *options, names, all)) return s.end(false);
   if (all.points.empty()) all.n_drawn = std::max(all.n_drawn, options->drawn);  // all of it may be what stays
   s.progress().clear();
   warn_of_idle_counts(flags, all);
