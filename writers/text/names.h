@@ -10,6 +10,7 @@
 #include "base/diagnostics.h"
 #include "scenegraph/legal_name.h"
 #include "scenegraph/scene.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit {
 
@@ -44,8 +45,10 @@ class Names {
  public:
   Names(const Scene& scene, Dialect dialect, bool own_fields, Diagnostics& diag)
       : scene_(scene), dialect_(dialect), own_fields_(own_fields), diag_(diag), met_(scene.node_count(), 0) {
-    for (const auto& t : scene.own_types())
-      if (t.kind == NodeKind::unknown) unknown_.insert(t.name);
+    const auto is_unknown = [](const auto& t) { return t.kind == NodeKind::unknown; };
+    if (std::ranges::none_of(scene.own_types(), is_unknown)) return;
+    for (const NodeId n : all_nodes(scene))  // of others nothing is printed
+      if (is_unknown(scene.type(n))) unknown_.insert(scene.type(n).name);
   }
 
   /// Types of nodes that nobody knew.
