@@ -449,7 +449,7 @@ bool Making::publish() {
 }  // namespace tiles
 
 std::size_t triangles_within(std::uint64_t memory) {
-  constexpr std::uint64_t program = 150 << 20, of_triangle = 300;
+  constexpr std::uint64_t program = 150 << 20, of_triangle = 350;
   const TilesOptions usual;
   const auto n = memory > program ? (memory - program) / of_triangle : 0;
   return std::clamp<std::size_t>(n, 3 * usual.triangles, usual.at_once);

@@ -73,7 +73,7 @@ struct TilesMade {
 /// Tiles are kept in `folder`/.wrlkit until the set is whole: a run that was killed is gone on with by the next one,
 /// and shards find what the others have made. The last of them to end makes the tiles above, and the set.
 ///
-/// Memory: one file with its scene, then the triangles of TilesOptions::at_once with some 300 bytes each and 40 MB on
+/// Memory: one file with its scene, then the triangles of TilesOptions::at_once with some 350 bytes each and 40 MB on
 /// each thread, and 100 bytes for each part; the rest lies in a temporary file in `folder`, about as large as the
 /// vertices of the world. A file that does not fit into what may be allocated costs itself, as one that cannot be read.
 /// The same bytes for any number of threads.

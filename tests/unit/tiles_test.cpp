@@ -255,7 +255,7 @@ TEST_CASE("tiles: the less memory there is, the less is simplified together", "[
   constexpr std::uint64_t mega = 1 << 20;
   const TilesOptions usual;
   CHECK(triangles_within(4096 * mega) == usual.at_once);
-  CHECK(triangles_within(512 * mega) == (512 - 150) * mega / 300);
+  CHECK(triangles_within(512 * mega) == (512 - 150) * mega / 350);
   CHECK(triangles_within(100 * mega) == 3 * usual.triangles);
 }
 
