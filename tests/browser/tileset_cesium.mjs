@@ -20,7 +20,7 @@ function judge({levels, error}) {
     fs.writeFileSync(path.join(folder, `${k}.png`), Buffer.from(picture.split(',')[1], 'base64'));
     const hits = names.flatMap((n, i) => n && full[i] ? [n === full[i]] : []), same = hits.filter(Boolean).length / hits.length;
     console.log(`${pixels} pixels: ${failed} tiles failed, ${new Set(names).size} names, ${(100 * same).toFixed(1)} % of ${hits.length} points show the same`);
-    if (failed || hits.length < 40 || same < bounds[k].same) faults.push(`at ${pixels} pixels not within ${JSON.stringify(bounds[k])}`);
+    if (failed || hits.length < 120 || same < bounds[k].same) faults.push(`at ${pixels} pixels not within ${JSON.stringify(bounds[k])}`);
   });
   const known = fs.readFileSync(world, 'utf8');
   const strange = [...new Set(full)].filter(name => name && !known.includes(`DEF ${name.replace(/#\d+$/, '')} `) && !world.endsWith(name));

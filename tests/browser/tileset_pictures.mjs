@@ -38,7 +38,7 @@ function judge({name, levels, sheet, error}, i) {
     const same = hits.filter(Boolean).length / hits.length;
     console.log(`${path.basename(name)}: ${level.pixels} pixels: ${level.tiles} tiles, ${level.triangles} triangles, ${level.places} places of others, differs by ${(255 * level.difference).toFixed(2)}/255, overlap ${level.overlap.toFixed(4)}, ${new Set(level.names).size} parts, ${(100 * same).toFixed(1)} % of points show the same`);
     const b = bounds[k];
-    if (level.difference > b.difference || level.overlap < b.overlap || same < b.names || !(hits.length > 20)) faults.push(`${name}: at ${b.pixels} pixels not within ${JSON.stringify(b)}`);
+    if (level.difference > b.difference || level.overlap < b.overlap || same < b.names || !(hits.length > 100)) faults.push(`${name}: at ${b.pixels} pixels not within ${JSON.stringify(b)}`);
   });
   if (levels[0].tiles < 4 || levels.at(-1).triangles >= levels[0].triangles) faults.push(`${name}: levels do not differ`);
   if (draws === many && !(levels[0].places > 0)) faults.push(`${name}: no surface is stored once for several places`);
