@@ -428,47 +428,6 @@ TEST_CASE("pieces: what is connected, and the same form elsewhere", "[levels]") 
   CHECK_FALSE(LikeForm(first).to(mirrored));
 }
 
-TEST_CASE("nearest point: only labels that count", "[levels]") {
-  Mesh two = grid_box(1);
-  const std::size_t n = two.n_faces();
-  Mesh other = grid_box(1);
-  transform(other, translation_matrix({10, 0, 0}));
-  append(two, other);
-  std::vector<std::uint32_t> labels(2 * n);
-  std::fill(labels.begin() + static_cast<std::ptrdiff_t>(n), labels.end(), 1u);
-  const ClosestPoint tree(triangles_of(two), labels);
-  const double far = std::numeric_limits<double>::infinity();
-  CHECK(tree.nearest_of({1.5, 0, 0}, far, {}).distance == Approx(0.5));
-  CHECK(tree.nearest_of({1.5, 0, 0}, far, {0, 1}).distance == Approx(7.5));
-  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, 7, {0, 1}).distance));
-  CHECK(std::isinf(tree.nearest_of({1.5, 0, 0}, far, {0, 2}).distance));
-}
-
-TEST_CASE("nearest point: what is forgotten is not found again", "[levels]") {
-  Mesh row;
-  std::vector<std::uint32_t> labels;
-  for (std::uint32_t i = 0; i < 50; ++i) {
-    Mesh box = grid_box(0);
-    transform(box, translation_matrix({3. * i, 0, 0}));
-    if (i == 0)
-      row = box;
-    else
-      append(row, box);
-    labels.insert(labels.end(), box.n_faces(), i);
-  }
-  ClosestPoint tree(triangles_of(row), labels);
-  const double far = std::numeric_limits<double>::infinity();
-  const Vec3 p{76, 0, 0};
-  for (std::uint32_t i = 0; i < 24; ++i) {
-    CHECK(tree.nearest_of(p, far, {}).distance == Approx(3. * i).margin(1e-12));
-    tree.forget(25 - i, 26 - i);
-    CHECK(tree.nearest_of(p, far, {}).distance == Approx(3. * i + 1));
-    tree.forget(26 + i, 27 + i);
-  }
-  tree.forget(0, 50);
-  CHECK(std::isinf(tree.nearest_of(p, far, {}).distance));
-}
-
 TEST_CASE("world levels: the letters of a text are parts as others", "[levels]") {
   const std::string text = "DEF Label Shape { geometry Text { string \"pump room\" } }";
   TestWorld w(tank_with_bolts(0) + at(0, 4, 0, text));
