@@ -22,40 +22,44 @@ void report(const LightWorld& world, Diagnostics& diag) {
   if (!world.has_sky_of_its_own()) diag.report(Diag::no_light, {});
 }
 
-/// What is seen at a pixel, one thing behind the other: with their shares, which are 1 together.
-class Layers {
+/// What is seen in a pixel: each surface, and each thing behind something transparent, with its share. Shares are 1
+/// together.
+class Seen {
  public:
-  void add(std::size_t layer, double part, const V3& radiance) {
-    if (layer == layers_.size()) layers_.emplace_back();
-    layers_[layer].light += part * radiance;
-    layers_[layer].part += part;
+  void add(const SeenFace& face, double share, const V3& radiance) {
+    auto at = std::ranges::find(parts_, face, &Part::face);
+    if (at == parts_.end()) at = parts_.insert(at, {face, {}, 0});
+    at->light += share * radiance;
+    at->share += share;
   }
   void scale(double by) {
-    for (Layer& l : layers_) l = {by * l.light, by * l.part};
+    for (Part& p : parts_) p = {p.face, by * p.light, by * p.share};
   }
 
   V3 light() const {
     V3 sum;
-    for (const Layer& l : layers_) sum += l.light;
+    for (const Part& p : parts_) sum += p.light;
     return sum;
   }
 
-  /// Of a display: in VRML transparency is a share of the colours that are displayed, and browsers mix these.
+  /// As a browser mixes it, from the colours that are displayed: what is behind something transparent, and what is on
+  /// both sides of an edge. Of one surface the light itself is mixed.
   V3 shown(double exposure) const {
     V3 sum;
-    for (const Layer& l : layers_) {
-      const V3 light = (exposure / l.part) * l.light;
-      sum += l.part * V3(linear_to_srgb(light.x), linear_to_srgb(light.y), linear_to_srgb(light.z));
+    for (const Part& p : parts_) {
+      const V3 light = (exposure / p.share) * p.light;
+      sum += p.share * V3(linear_to_srgb(light.x), linear_to_srgb(light.y), linear_to_srgb(light.z));
     }
     return sum;
   }
 
  private:
-  struct Layer {
+  struct Part {
+    SeenFace face;
     V3 light;
-    double part = 0;
+    double share = 0;
   };
-  std::vector<Layer> layers_;
+  std::vector<Part> parts_;
 };
 
 class Painter {
@@ -64,19 +68,18 @@ class Painter {
       : camera_(camera), options_(options), direct_(world), transport_(world, direct_, nullptr) {}
 
   /// Random numbers belong to a pixel, so that pixels may be done in any order.
-  Layers pixel(std::size_t x, std::size_t y) const {
+  Seen pixel(std::size_t x, std::size_t y) const {
     const int n = options_.samples;
     const std::uint64_t key = random_key(seed, y, x);
     RandomStream random(key);
-    Layers out;
+    Seen out;
     for (int v = 0; v < n; ++v)
       for (int u = 0; u < n; ++u) {
         const double px = static_cast<double>(x) + (u + random.next()) / n,
                      py = static_cast<double>(y) + (v + random.next()) / n;
-        std::size_t layer = 0;
-        transport_.each_seen({camera_.eye, camera_.direction(px, py)}, key, static_cast<std::uint32_t>(v * n + u),
-                             options_.background,
-                             [&](double part, const V3& radiance) { out.add(layer++, part, radiance); });
+        transport_.each_seen(
+            {camera_.eye, camera_.direction(px, py)}, key, static_cast<std::uint32_t>(v * n + u), options_.background,
+            [&](const SeenFace& face, double part, const V3& radiance) { out.add(face, part, radiance); });
       }
     out.scale(1.0 / (n * n));
     return out;
@@ -90,7 +93,7 @@ class Painter {
 };
 
 /// Noise makes a logarithmic mean too low: the mean is taken of squares of pixels.
-double exposure_of(const std::vector<Layers>& seen, std::size_t width, std::size_t height) {
+double exposure_of(const std::vector<Seen>& seen, std::size_t width, std::size_t height) {
   constexpr std::size_t side = 8;
   LightMeter meter;
   for (std::size_t top = 0; top < height; top += side)
@@ -118,10 +121,10 @@ Image path_picture(const Scene& scene, const MeshSource& source, const drawing::
   const Painter painter(world, camera, options);
   const auto width = static_cast<std::size_t>(camera.width), n = width * static_cast<std::size_t>(camera.height);
   Image image{camera.width, camera.height, 3, std::vector<std::uint8_t>(n * 3)};
-  std::vector<Layers> seen(options.exposure.automatic ? n : 0);
+  std::vector<Seen> seen(options.exposure.automatic ? n : 0);
   auto paint = [&](std::size_t from, std::size_t to) {
     for (std::size_t i = from; i < to; ++i) {
-      Layers pixel = painter.pixel(i % width, i / width);
+      Seen pixel = painter.pixel(i % width, i / width);
       if (seen.empty())
         show(pixel.shown(options.exposure.factor), &image.pixels[i * 3]);
       else

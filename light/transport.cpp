@@ -23,6 +23,13 @@ bool see_one_another(const LightWorld& world, const Receiver& a, const Receiver&
          is_free(from, (1 / distance) * way, distance);
 }
 
+int Transport::facing(const V3& normal) {
+  const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+  if (x >= y && x >= z) return normal.x < 0 ? 0 : 1;
+  if (y >= z) return normal.y < 0 ? 2 : 3;
+  return normal.z < 0 ? 4 : 5;
+}
+
 Arriving Transport::along(const Receiver& at, const Ray& ray, RandomStream& random, int depth,
                           bool all_emitters) const {
   Arriving out;

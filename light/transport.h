@@ -25,6 +25,18 @@ struct FirstChoices {
       : directions(random_key(key, 1)), places(random_key(key, 2)), ray(r) {}
 };
 
+/// What a camera sees in one direction, one thing behind the other. Neighbours on a surface that is about flat are
+/// equal.
+struct SeenFace {
+  static constexpr std::uint32_t sky = 0xffffffff;
+
+  std::uint32_t layer = 0;  // how many things are in front of it
+  std::uint32_t use = sky;  // of its mesh
+  int facing = 0;           // the axis that its normal is nearest to, and to which side
+
+  bool operator==(const SeenFace&) const = default;
+};
+
 /// Looking from above the surfaces, so that one that is bent a little does not stand in the way.
 bool see_one_another(const LightWorld& world, const Receiver& a, const Receiver& b);
 
@@ -41,21 +53,22 @@ class Transport {
     return along(at, ray, random, 0, all_emitters);
   }
 
-  /// Calls f(part, radiance) for what a camera sees along a ray, one thing behind the other; `part` is its share of
-  /// what is seen. The last is the sky, or `background` instead of it. The backs of solid faces are seen through.
+  /// Calls f(face, part, radiance) for what a camera sees along a ray, one thing behind the other; `part` is its share
+  /// of what is seen. The last is the sky, or `background` instead of it. The backs of solid faces are seen through.
   /// `key` is of the pixel, `number` of the ray in it.
   template <class F>
   void each_seen(const Ray& ray, std::uint64_t key, std::uint32_t number, const std::optional<V3>& background,
                  F&& f) const {
     RandomStream random(random_key(key, 0, number));
-    std::uint64_t layer = 0;
+    std::uint32_t layer = 0;
     const double open = each_layer(ray, [&](const Hit& hit, SurfacePoint& s, double part) {
-      if (s.inside)
-        s.alpha = 0;
-      else if (part > 0)
-        f(part, s.emission + shown(hit, s, random, {random_key(key, 1, layer++), number}));
+      if (s.inside) s.alpha = 0;
+      if (s.inside || part <= 0) return;
+      const SeenFace face{layer, hit.use, facing(s.face)};
+      f(face, part, s.emission + shown(hit, s, random, {random_key(key, 1, layer++), number}));
     });
-    if (open > 0) f(open, background ? *background : world_.has_sky() ? world_.sky(ray.direction) : V3(0));
+    if (open > 0)
+      f(SeenFace{layer}, open, background ? *background : world_.has_sky() ? world_.sky(ray.direction) : V3(0));
   }
 
   /// Calls f(hit, surface, part) for what a ray meets, through what is transparent; `part` is how much of the ray's
@@ -104,6 +117,7 @@ class Transport {
  private:
   static constexpr int most_layers = 32;
 
+  static int facing(const V3& normal);
   Arriving along(const Receiver& at, const Ray& ray, RandomStream& random, int depth, bool all_emitters = false) const;
   V3 irradiance(const Ray& ray, const Hit& hit, const SurfacePoint& s, RandomStream& random, int depth) const;
   V3 shown(const Hit& hit, const SurfacePoint& s, RandomStream& random, const FirstChoices& first) const;
