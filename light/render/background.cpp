@@ -7,6 +7,39 @@
 namespace wrlkit::drawing {
 namespace {
 
+namespace b = nodes::background;
+namespace t = nodes::texture_background;
+
+/// One side of the cube of pictures. Above and below are as they appear to who looks along -Z and raises or lowers his
+/// head.
+struct Side {
+  FieldKey<FieldType::MFString> url;
+  FieldKey<FieldType::SFNode> texture;
+  V3 out, right, up;
+};
+const Side sides[] = {
+    {b::frontUrl, t::frontTexture, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}},
+    {b::backUrl, t::backTexture, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}},
+    {b::leftUrl, t::leftTexture, {-1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
+    {b::rightUrl, t::rightTexture, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
+    {b::topUrl, t::topTexture, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+    {b::bottomUrl, t::bottomTexture, {0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+};
+
+std::shared_ptr<const Image> image_at(const Scene& scene, NodeId n, std::span<const std::string_view> urls,
+                                      Resources* resources, Diagnostics& diag) {
+  return urls.empty() || !resources ? nullptr : resources->image(urls, scene.where(n), diag);
+}
+
+/// Null for films, and where there is no texture.
+std::shared_ptr<const Image> image_of_texture(const Scene& scene, NodeId texture, Resources* resources,
+                                              Diagnostics& diag) {
+  if (texture && scene.is(texture, nodes::PixelTexture))
+    return std::make_shared<const Image>(image_of(scene.get(texture, nodes::pixel_texture::image)));
+  if (!texture || !scene.is(texture, nodes::ImageTexture)) return nullptr;
+  return image_at(scene, texture, scene.get(texture, nodes::image_texture::url), resources, diag);
+}
+
 /// The frame with its axes unit and at right angles.
 Affine turn_of(const Affine& frame) {
   V3 z = unit(frame.z), x = unit(cross(frame.y, z));
@@ -17,24 +50,24 @@ Affine turn_of(const Affine& frame) {
 }  // namespace
 
 Sky::Sky(const Scene& scene, NodeId n, const Affine& frame, Resources* resources, Diagnostics& diag) {
-  namespace f = nodes::background;
   to_local_ = turn_of(frame).inverse();
-  sky_ = bands(scene.get(n, f::skyColor), scene.get(n, f::skyAngle));
-  ground_ = bands(scene.get(n, f::groundColor), scene.get(n, f::groundAngle));
+  const bool has_textures = scene.is(n, nodes::TextureBackground);
+  if (has_textures)
+    set_bands(scene, n, t::skyColor, t::skyAngle, t::groundColor, t::groundAngle);
+  else
+    set_bands(scene, n, b::skyColor, b::skyAngle, b::groundColor, b::groundAngle);
+  for (const Side& side : sides) {
+    const auto image = has_textures ? image_of_texture(scene, scene.get(n, side.texture), resources, diag)
+                                    : image_at(scene, n, scene.get(n, side.url), resources, diag);
+    if (auto picture = image ? Texture::make(*image) : nullptr)
+      faces_.push_back({side.out, side.right, side.up, picture});
+  }
+}
+
+void Sky::set_bands(const Scene& scene, NodeId n, Colors sky, Angles sky_angles, Colors ground, Angles ground_angles) {
+  sky_ = bands(scene.get(n, sky), scene.get(n, sky_angles));
+  ground_ = bands(scene.get(n, ground), scene.get(n, ground_angles));
   if (sky_.empty()) sky_.push_back({0, {}});
-  // Above and below are as they appear to who looks along -Z and raises or lowers his head.
-  auto add = [&](auto key, const V3& out, const V3& right, const V3& up) {
-    auto urls = scene.get(n, key);
-    if (urls.empty() || !resources) return;
-    auto image = resources->image(urls, scene.where(n), diag);
-    if (auto picture = image ? Texture::make(*image) : nullptr) faces_.push_back({out, right, up, picture});
-  };
-  add(f::frontUrl, {0, 0, -1}, {1, 0, 0}, {0, 1, 0});
-  add(f::backUrl, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0});
-  add(f::leftUrl, {-1, 0, 0}, {0, 0, -1}, {0, 1, 0});
-  add(f::rightUrl, {1, 0, 0}, {0, 0, 1}, {0, 1, 0});
-  add(f::topUrl, {0, 1, 0}, {1, 0, 0}, {0, 0, 1});
-  add(f::bottomUrl, {0, -1, 0}, {1, 0, 0}, {0, 0, -1});
 }
 
 /// The first colour stands at angle 0, each further one at its angle; angles that go back count as those before them.

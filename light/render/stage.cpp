@@ -81,7 +81,7 @@ class Walk {
       add_light(here);
     else if (t == nodes::Viewpoint)
       stage_.viewpoints.push_back(here);
-    else if (t == nodes::Background)
+    else if (t == nodes::Background || t == nodes::TextureBackground)
       bind(stage_.background, here);
     else if (t == nodes::Fog)
       bind(stage_.fog, here);

@@ -25,7 +25,7 @@ std::uint8_t byte_of(double v) { return static_cast<std::uint8_t>(std::lround(25
 std::shared_ptr<const std::string> sky_panorama(const Scene& scene, PassContext& ctx) {
   Diagnostics silent(ctx.diag.shared_sources());  // the pictures are reported with the dome
   const auto stage = drawing::set_stage(scene, silent);
-  if (!stage.background || !scene.is(stage.background->node, nodes::Background)) return nullptr;
+  if (!stage.background) return nullptr;
   const drawing::Sky sky(scene, stage.background->node, stage.frames[stage.background->frame], ctx.resources, silent);
   Image image{width, height, 3, {}};
   image.pixels.reserve(std::size_t{3} * width * height);

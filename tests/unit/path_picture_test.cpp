@@ -57,6 +57,15 @@ TEST_CASE("path tracing: what shines is as bright as it says, and a ball in a wh
   CHECK(pixel(s.render(ball), 0, 0) == Rgb{51, 102, 153});
 }
 
+TEST_CASE("path tracing: both sides of an edge are mixed as they are displayed") {
+  PathStudio s(1, 16);
+  const std::string right_half =
+      "IndexedFaceSet { solid FALSE coord Coordinate { point [ 0 -9 0, 9 -9 0, 9 9 0, 0 9 0 ] } coordIndex [ 0 1 2 3 ] "
+      "}";
+  const std::string world = view + "Background { skyColor 0 0 0 } " + shape(right_half, emitting("1 1 1"));
+  CHECK(s.render(world).pixels[0] == Approx(127.5).margin(1));
+}
+
 TEST_CASE("path tracing: a closed room that shines everywhere is as bright everywhere") {
   // Emission 0.2 and albedo 0.5: 0.2 + 0.1 + 0.05 + ... = 0.4.
   PathStudio s(24, 48);

@@ -296,6 +296,18 @@ TEST_CASE("render: sky and ground are bands of colour by the angle") {
   CHECK(close(looking(-1.0707963), {255, 128, 128}));
 }
 
+TEST_CASE("render: a TextureBackground shows its textures, and its colours where it has none") {
+  Studio s;
+  s.header = "#X3D V3.3 utf8\nPROFILE Full\n";
+  s.pictures.images["a"] = std::make_shared<const Image>(Image{1, 1, 3, {255, 153, 51}});
+  const std::string sky =
+      "TextureBackground { skyColor 0.2 0.4 0.6 backTexture PixelTexture { image 1 1 3 0xff0000 } "
+      "frontTexture ImageTexture { url \"a\" } } ";
+  CHECK(middle(s.render(sky)) == Rgb{255, 153, 51});
+  CHECK(middle(s.render(sky + "Viewpoint { orientation 0 1 0 3.14159265 }")) == Rgb{255, 0, 0});
+  CHECK(middle(s.render(sky + "Viewpoint { orientation 1 0 0 1.5707963 }")) == Rgb{51, 102, 153});
+}
+
 TEST_CASE("render: the six pictures of a Background are upright from inside") {
   Studio s;
   // Left half of the upper row red, right one green; lower row blue and white.

@@ -1,6 +1,7 @@
 #include "tools/cli/cli.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -63,6 +64,8 @@ bool limit(const Verb& verb, const Flags& f) {
                  static_cast<unsigned long long>(needed / mega + 1));
     return false;
   }
+  // By default malloc reserves 64 MB of addresses or more for each thread, which count although nothing is there.
+  mallopt(M_ARENA_MAX, 1);
   const rlimit limit{bytes, bytes};
   setrlimit(RLIMIT_AS, &limit);
   return true;
