@@ -4,6 +4,7 @@
 #include <map>
 
 #include "passes/lower_x3d/geometry.h"
+#include "passes/lower_x3d/texture_background.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
@@ -21,6 +22,7 @@ class Vrml97Lowering {
   bool run() {
     const auto all = all_nodes(scene_);
     for (NodeId n : all) color(n);
+    for (NodeId n : all) changed_ |= lower_texture_background(scene_, n, diag_);
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
     for (NodeId n : all) foreign_node(n);
