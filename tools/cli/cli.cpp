@@ -1,4 +1,5 @@
 #include "tools/cli/cli.h"
+#include "tools/cli/documents.h"
 
 #include <fmt/format.h>
 #include <malloc.h>
@@ -197,7 +198,7 @@ bool takes_inputs(const Flags& flags, const Verb& verb) {
   };
   for (const auto& path : flags.inputs)
     if (const std::string_view why = fault(path); !why.empty()) {
-      std::fprintf(stderr, "wrlkit %s: '%s' %s\n", spoken_verb(verb.name).c_str(), path.c_str(), why.data());
+      complain(spoken_verb(verb.name), fmt::format("'{}' {}", path, why));
       return false;
     }
   return true;
@@ -325,12 +326,17 @@ int run_command_line(int argc, char** argv) {
   if (!chosen) return code;
   flags.warnings = of_recipe;
   flags.warnings.insert(flags.warnings.end(), warnings.begin(), warnings.end());
-  if (!takes_inputs(flags, *chosen)) return nothing;
+  if (!takes_inputs(flags, *chosen)) {
+    print_failure(flags, nothing);
+    return nothing;
+  }
   warn_of_missing_folders(flags);
   if (!can_print_json(flags, *chosen)) return usage;
   if (!check_outputs(flags, chosen->endings, chosen->makes)) return usage;
   if (!limit(*chosen, flags)) return usage;
-  return chosen->run(flags);
+  code = chosen->run(flags);
+  if (code == nothing) print_failure(flags, code);
+  return code;
 }
 
 }  // namespace wrlkit

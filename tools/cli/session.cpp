@@ -1,4 +1,5 @@
 #include "tools/cli/session.h"
+#include "tools/cli/documents.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -137,8 +138,7 @@ int Session::end(bool made, int not_made) {
 
 void Session::print_json(std::string_view json) {
   has_json_ = true;
-  fmt::print("{}\n", json);
-  std::fflush(stdout);
+  print_document(json);
 }
 
 std::string Session::report_json(int code) {

@@ -150,6 +150,6 @@ std::string report_csv(const CorpusReport& report) {
   return out;
 }
 
-std::string report_json(const CorpusReport& report) { return json_of(report) + '\n'; }
+std::string report_json(const CorpusReport& report) { return json_of(report); }
 
 }  // namespace wrlkit

@@ -9,6 +9,7 @@
 #include "base/image/image_codecs.h"
 #include "base/text/amounts.h"
 #include "tools/cli/cli.h"
+#include "tools/cli/documents.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
@@ -73,7 +74,7 @@ void look(const Flags& flags, std::size_t most) {
 
 bool write(const CorpusReport& report, const std::string& path) {
   return write_text_file(path, path.ends_with(".csv")    ? report_csv(report)
-                               : path.ends_with(".json") ? report_json(report)
+                               : path.ends_with(".json") ? report_json(report) + '\n'
                                                          : report_page(report));
 }
 
@@ -89,7 +90,7 @@ int run_corpus_report(const Flags& flags) {
   if (flags.looks > 0) look(flags, static_cast<std::size_t>(flags.looks));
   auto report = read_report(out);
   if (!flags.compare.empty()) compare(report, read_report(flags.compare));
-  if (flags.json) fmt::print("{}", report_json(report));
+  if (flags.json) print_document(report_json(report));
   auto paths = flags.outputs;
   if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};
   for (const auto& path : paths) {

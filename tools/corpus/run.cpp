@@ -20,6 +20,7 @@
 #include "base/text/amounts.h"
 #include "base/text/json.h"
 #include "tools/cli/cli.h"
+#include "tools/cli/documents.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
 #include "tools/corpus/status.h"
@@ -165,7 +166,7 @@ class Run {
     }
     journal_.settle();
     if (!Workers::interrupted()) status.end(work_.out);
-    if (flags_.json) fmt::print("{}\n", status.json());
+    if (flags_.json) print_document(status.json());
     if (status.n_made() == 0 && status.n_done() > 0) return nothing;
     return complete_ && status.n(JobState::made) == status.n_done() ? done : partly;
   }
@@ -416,7 +417,7 @@ void print_plan(const Planned& p, const Flags& flags) {
   }
   if (flags.json) {
     json.end_array();
-    fmt::print("{}\n", json_text);
+    print_document(json_text);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
+#include "tools/cli/documents.h"
 #include "tools/cli/inputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
@@ -64,7 +65,7 @@ int run_check(const Flags& flags) {
   std::vector<std::string> objects;
   const auto inputs = named_worlds(flags.inputs, why);
   if (!inputs) {
-    fmt::print(stderr, "wrlkit check: {}\n", why);
+    complain("check", why);
     return nothing;
   }
   const int code = print_left_out("check", inputs->left_out, inputs->passed_over);
@@ -81,9 +82,9 @@ int run_check(const Flags& flags) {
     if (flags.json || !flags.report.empty()) objects.push_back(json_of(path, s.diag(), readable));
     if (!flags.json && (!flags.quiet || s.diag().has_errors())) print_text(path, s.diag());
   }
-  const auto json = json_of_scenes(*inputs, objects) + '\n';
-  if (flags.json) fmt::print("{}", json);
-  if (!flags.report.empty() && !write_text_file(flags.report, json)) return nothing;
+  const auto json = json_of_scenes(*inputs, objects);
+  if (flags.json) print_document(json);
+  if (!flags.report.empty() && !write_text_file(flags.report, json + '\n')) return nothing;
   return unreadable == inputs->worlds.size() ? nothing : faulty ? partly : code;
 }
 

@@ -1,5 +1,6 @@
 // wrlkit info: what is inside a scene. The keys of --json are stable.
 #include "tools/verbs/info.h"
+#include "tools/cli/documents.h"
 
 #include <fmt/format.h>
 
@@ -176,7 +177,7 @@ int run_info(const Flags& flags) {
   std::string why;
   const auto inputs = named_worlds(flags.inputs, why);
   if (!inputs) {
-    fmt::print(stderr, "wrlkit info: {}\n", why);
+    complain("info", why);
     return nothing;
   }
   const auto& worlds = inputs->worlds;
@@ -195,7 +196,7 @@ int run_info(const Flags& flags) {
     unreadable += code == nothing;
     worst = std::max(worst, code == nothing ? static_cast<int>(partly) : code);
   }
-  if (flags.json) fmt::print("{}\n", json_of_scenes(*inputs, objects));
+  if (flags.json) print_document(json_of_scenes(*inputs, objects));
   return unreadable == worlds.size() ? static_cast<int>(nothing) : worst;
 }
 

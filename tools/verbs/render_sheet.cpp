@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text/json.h"
+#include "tools/cli/documents.h"
 #include "tools/cli/inputs.h"
 #include "tools/report/picture_grid.h"
 #include "tools/verbs/render_sheets.h"
@@ -31,7 +32,7 @@ int render_sheet(Session& s) {
   std::string why;
   const auto named = named_worlds(f.inputs, why);
   if (!named) {
-    fmt::print(stderr, "wrlkit render: {}\n", why);
+    complain("render", why);
     return nothing;
   }
   const auto& worlds = named->worlds;

@@ -10,6 +10,7 @@
 
 #include "base/text/amounts.h"
 #include "base/text/json.h"
+#include "tools/cli/documents.h"
 #include "tools/cli/inputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
@@ -24,7 +25,7 @@ std::vector<TilesInput> inputs_of(const Flags& flags, int& code) {
   std::string why;
   const InputRules rules{.include = flags.include, .exclude = flags.exclude, .base = {}, .output = flags.output};
   const auto found = gather_inputs(flags.inputs, rules, why);
-  if (!found) fmt::print(stderr, "wrlkit tiles: {}\n", why);
+  if (!found) complain("tiles", why);
   std::vector<TilesInput> out;
   if (!found) return out;
   code = print_left_out("tiles", found->left_out, found->passed_over);

@@ -1,4 +1,5 @@
 #include "tools/verbs/view_gallery.h"
+#include "tools/cli/documents.h"
 
 #include <fmt/format.h>
 
@@ -164,7 +165,7 @@ int view_gallery(const Flags& flags) {
   std::string why;
   const auto named = named_worlds(flags.inputs, why);
   if (!named) {
-    fmt::print(stderr, "wrlkit view: {}\n", why);
+    complain("view", why);
     return nothing;
   }
   const int left_out = print_left_out("view", named->left_out, named->passed_over);

@@ -1,0 +1,17 @@
+rm -rf %t.empty
+mkdir %t.empty
+echo nothing to see > %t.text.wrl
+for input in %t.empty http://x %t.absent %t.text.wrl
+do
+    for words in "info $input" "check $input" "tiles $input -o %t.tiles" "render $input %t.png" "convert $input %t.glb" \
+        "optimize $input %t.glb" "diff $input $input" "simplify $input --ratios 0.5 -o %t.levels" \
+        "illuminate $input %t.xml" "view $input -o %t.html"
+    do
+        wrlkit $words --json 2> %t.null > %t.json
+        code=$?
+        python3 -c 'import json, sys; json.load(sys.stdin)' < %t.json || echo "no document: $words"
+        [ $code = 3 ] || echo "$code: $words"
+    done
+done
+wrlkit info %t.empty --json 2> %t.null |
+    python3 -c 'import json, sys; d = json.load(sys.stdin); print(d["exit_code"], d["messages"][0]["name"])'
