@@ -203,6 +203,10 @@ def test_wrong_arguments_are_named(tmp_path):
         r"World.report\(\): 'node' should be a Node, not str 'x'": lambda: world.report('warning', 'text', 'x'),
         r'World.roots is a list of Nodes, not int 5': lambda: setattr(world, 'roots', 5),
         r'Node.name is a str, not int 5': lambda: setattr(world.roots[0], 'name', 5),
+        r'Node\[...\]: the name of a field is expected, a str, not int 5': lambda: world.roots[0][5],
+        r'Node\[...\]: the name of a field is expected, a str, not int 6': lambda: world.roots[0].__setitem__(6, 1),
+        r'pass_\(\): a function is expected, not int 5': lambda: wrlkit.pass_(5),
+        r"pass_\(\): 'name' should be a str, not int 5": lambda: wrlkit.pass_(name=5)(print),
     }
     for message, call in calls.items():
         with pytest.raises(TypeError, match=message) as error:

@@ -86,6 +86,18 @@ def explained(function, name):
     return call
 
 
+def explain_field(node, operator):
+    """An operator of nodes, with an error for what is no name of a field."""
+    function = getattr(node, operator)
+
+    @functools.wraps(function)
+    def call(self, name, *value):
+        if not isinstance(name, str):
+            raise TypeError(f'{node.__name__}[...]: the name of a field is expected, a str, not {shown(name)}')
+        return function(self, name, *value)
+    setattr(node, operator, call)
+
+
 def explain(*owners):
     """Gives all functions of modules and classes such errors."""
     for owner in owners:
@@ -93,3 +105,5 @@ def explain(*owners):
             if inspect.isroutine(function) and not name.startswith('_'):
                 label = f'{owner.__name__}.{name}' if inspect.isclass(owner) else name
                 setattr(owner, name, explained(function, label))
+            elif name in ('__getitem__', '__setitem__'):
+                explain_field(owner, name)

@@ -10,7 +10,7 @@ import sys
 import traceback
 import typing
 
-from . import _wrlkit
+from . import _wrlkit, arguments
 
 __all__ = ['Range', 'pass_']
 
@@ -111,6 +111,10 @@ class Definition:
     """What the program knows of a function that is a pass."""
 
     def __init__(self, function, name):
+        if not callable(function):
+            raise TypeError(f'pass_(): a function is expected, not {arguments.shown(function)}')
+        if name is not None and not isinstance(name, str):
+            raise TypeError(f"pass_(): 'name' should be a str, not {arguments.shown(name)}")
         self.function, self.name = function, name or function.__name__.replace('_', '-')
         if not re.fullmatch(r'[A-Za-z][\w.-]*', self.name):
             raise ValueError(f"'{self.name}' is not a valid name for a pass")

@@ -1,3 +1,4 @@
+set +o pipefail
 rm -rf %t.empty
 mkdir %t.empty
 echo nothing to see > %t.text.wrl
