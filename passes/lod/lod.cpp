@@ -187,6 +187,7 @@ std::string with_colons(const std::vector<double>& values) {
 
 bool NumberList::read(std::string_view text) {
   values.clear();
+  if (text.ends_with(':')) return false;
   while (!text.empty()) {
     double v;
     auto r = std::from_chars(text.data(), text.data() + text.size(), v);
@@ -207,6 +208,7 @@ std::string NumberList::print() const { return with_colons(values); }
 
 bool LengthList::read(std::string_view text) {
   values.clear();
+  if (text.ends_with(':')) return false;
   while (!text.empty()) {
     const auto end = std::min(text.find(':'), text.size());
     LengthOption length;
