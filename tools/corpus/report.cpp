@@ -63,18 +63,18 @@ std::size_t CorpusReport::n(JobState s) const {
 }
 
 std::vector<std::pair<std::string_view, std::size_t>> CorpusReport::states() const {
-  std::vector<std::pair<std::string_view, std::size_t>> out;
+  std::vector<std::pair<std::string_view, std::size_t>> list;
   for (auto s : {JobState::made, JobState::made_partly, JobState::failed, JobState::crashed, JobState::timeout,
                  JobState::no_memory})
-    out.emplace_back(to_string(s), n(s));
-  return out;
+    list.emplace_back(to_string(s), n(s));
+  return list;
 }
 
 std::vector<ReportedKind> CorpusReport::messages() const {
-  std::vector<ReportedKind> out;
-  out.reserve(kinds.size());
-  for (const auto& [name, kind] : kinds) out.push_back(kind);
-  return out;
+  std::vector<ReportedKind> list;
+  list.reserve(kinds.size());
+  for (const auto& [name, kind] : kinds) list.push_back(kind);
+  return list;
 }
 
 CorpusReport read_report(const std::string& out) {
