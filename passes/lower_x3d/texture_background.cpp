@@ -14,7 +14,7 @@ struct Side {
   FieldKey<FieldType::SFNode> texture;
   FieldKey<FieldType::MFString> url;
 };
-constexpr Side sides[] = {
+constexpr Side sky_sides[] = {
     {"frontTexture", t::frontTexture, b::frontUrl}, {"backTexture", t::backTexture, b::backUrl},
     {"leftTexture", t::leftTexture, b::leftUrl},    {"rightTexture", t::rightTexture, b::rightUrl},
     {"topTexture", t::topTexture, b::topUrl},       {"bottomTexture", t::bottomTexture, b::bottomUrl}};
@@ -24,7 +24,7 @@ constexpr Side sides[] = {
 bool lower_texture_background(Scene& scene, NodeId n, Diagnostics& diag) {
   if (!scene.is(n, nodes::TextureBackground)) return false;
   auto fields = fields_for(scene, n, nodes::Background);
-  for (const Side& side : sides) {
+  for (const Side& side : sky_sides) {
     const NodeId texture = scene.get(n, side.texture);
     if (!texture) continue;
     if (scene.is(texture, nodes::ImageTexture))
