@@ -3,6 +3,7 @@
 // the command line does them.
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/text/nearest_name.h"
@@ -133,6 +134,20 @@ std::map<std::string, std::pair<std::string, std::vector<std::pair<std::string, 
   return out;
 }
 
+/// Why what a Node has besides fields cannot be set.
+std::string read_only(const PyNode& node, const std::string& name) {
+  auto why = "Node." + name + " cannot be set";
+  const auto fields = fields_of(node);
+  if (std::ranges::find(fields, name) != fields.end()) why += "; the field of that name is node['" + name + "']";
+  return why;
+}
+
+/// For classes whose objects only wrlkit makes.
+template <class T, class... Holder>
+void no_constructor(py::class_<T, Holder...>& type, const char* why) {
+  type.def(py::init([why](const py::args&, const py::kwargs&) -> T* { throw py::type_error(why); }), why);
+}
+
 void define_message(py::class_<MessageView>& type) {
   type.def_property_readonly(
           "severity", [](const MessageView& m) { return to_string(m.severity); }, "error, warning or lost")
@@ -165,6 +180,8 @@ void define_node(py::class_<PyNode>& type) {
            [](const py::object& self, const std::string& name, const py::object& value) {
              if (name == "name" && !py::isinstance<py::str>(value))
                throw py::type_error("Node.name is a str, not " + shown_value(value));
+             if (name == "type" || name == "world" || name == "fields")
+               throw py::attribute_error(read_only(self.cast<const PyNode&>(), name));
              if (name == "name")
                self.get_type().attr("name").attr("__set__")(self, value);
              else
@@ -253,6 +270,10 @@ PYBIND11_MODULE(_wrlkit, m) {
   py::class_<PyMesh> mesh(m, "Mesh",
                           "Polygons of corners. The arrays are read-only, are not copied, and hold what they lie in.");
   WorldClass world(m, "World", "A world that was read, or that a pass is given.");
+  no_constructor(message, "a Message comes from World.messages or from an Error");
+  no_constructor(node, "a Node comes from World.nodes(), find() or add()");
+  no_constructor(mesh, "a Mesh comes from Node.mesh()");
+  no_constructor(world, "a World comes from wrlkit.load(path)");
   define_message(message);
   define_node(node);
   define_mesh(mesh);

@@ -86,7 +86,8 @@ std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::siz
     auto k = (n - 1) / options.every * options.every;
     for (std::size_t i = 0; k > 0 && i < most; ++i, k -= options.every) out.push_back(k);
   }
-  for (double r : options.ratios) out.push_back(static_cast<std::size_t>(r * static_cast<double>(n)));
+  for (double r : options.ratios)
+    out.push_back(std::max<std::size_t>(1, static_cast<std::size_t>(r * static_cast<double>(n))));
   std::erase_if(out, [&](std::size_t k) { return k >= n; });
   std::ranges::sort(out, std::greater{});
   out.erase(std::unique(out.begin(), out.end()), out.end());

@@ -123,7 +123,10 @@ NodeId bound_background(const Scene& scene) {
 
 Outcome sky(Scene& scene, const SkyOptions& options, PassContext& ctx) {
   const NodeId background = bound_background(scene);
-  if (!background) return Outcome::unchanged;
+  if (!background) {
+    ctx.diag.report(Diag::no_background, {});
+    return Outcome::unchanged;
+  }
   Sky made(scene, background);
   if (made.is_made()) return Outcome::unchanged;
   made.make();

@@ -147,6 +147,10 @@ def test_fields_that_are_called_as_properties(tmp_path):
     assert navigation.type == 'NavigationInfo' and navigation['type'] == ['WALK']
     navigation['type'] = 'FLY'
     assert navigation['type'] == ['FLY']
+    with pytest.raises(AttributeError, match=r"Node.type cannot be set; the field of that name is node\['type'\]"):
+        navigation.type = 'WALK'
+    with pytest.raises(AttributeError, match='Node.world cannot be set$'):
+        navigation.world = None
 
 
 def test_what_a_file_would_be_warned_of_is_an_error():
@@ -207,6 +211,13 @@ def test_wrong_arguments_are_named(tmp_path):
         r'Node\[...\]: the name of a field is expected, a str, not int 6': lambda: world.roots[0].__setitem__(6, 1),
         r'pass_\(\): a function is expected, not int 5': lambda: wrlkit.pass_(5),
         r"pass_\(\): 'name' should be a str, not int 5": lambda: wrlkit.pass_(name=5)(print),
+        r"info\(\): 'path' should be a path .* not int 5": lambda: wrlkit.info(5),
+        r'a Node comes from World.nodes\(\), find\(\) or add\(\)': lambda: wrlkit.Node('Box'),
+        r'a World comes from wrlkit.load\(path\)': lambda: wrlkit.World(),
+        r'a Mesh comes from Node.mesh\(\)': lambda: wrlkit.Mesh(),
+        r'a Message comes from World.messages or from an Error': lambda: wrlkit.Message('text'),
+        r'Node.mesh\(\) takes no arguments': lambda: world.roots[0].mesh(1),
+        r"Range\(\): 'most' should be a number or None, not str '1'": lambda: wrlkit.Range(0, '1'),
     }
     for message, call in calls.items():
         with pytest.raises(TypeError, match=message) as error:

@@ -19,9 +19,11 @@ arguments.explain(_wrlkit, _wrlkit.World, _wrlkit.Node)
 from ._wrlkit import __version__, Error, Mesh, Message, Node, World, convert, load, main, node_types, passes
 from .definitions import Range, pass_
 
+_load_for_info = arguments.renamed(load, 'info')
+
 __all__ = ['__version__', 'Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'main', 'node_types', 'nodes', 'pass_', 'passes']
 
 
 def info(path: str, allow: Sequence[str] = (), unit: str = '', up: str = '', recognise: bool = False) -> Dict[str, Any]:
     """What is inside a world, as `wrlkit info --json` says it: a dict of format, nodes, triangles, bounds, textures and more. With `recognise` what the parts are, too: 'forms'."""
-    return load(path, list(allow), unit, up).info(recognise)
+    return _load_for_info(path, list(allow), unit, up).info(recognise)

@@ -53,7 +53,8 @@ def fault(name, signature, args, keywords):
     names = [n for n, _, _ in parameters]
     own = 1 if names[:1] == ['self'] else 0
     if len(args) > len(parameters):
-        return f'{name}() takes at most {len(parameters) - own} arguments by position, not {len(args) - own}'
+        most = len(parameters) - own
+        return f'{name}() takes no arguments' if most == 0 else f'{name}() takes at most {most} arguments by position, not {len(args) - own}'
     given = dict(zip(names, args))
     for keyword, value in keywords.items():
         if keyword in given:
@@ -84,6 +85,11 @@ def explained(function, name):
                 raise
         raise TypeError(fault(name, signature, args, keywords))
     return call
+
+
+def renamed(function, name):
+    """A function that has such errors, with errors that speak of another one, which calls it."""
+    return explained(function.__wrapped__, name)
 
 
 def explain_field(node, operator):

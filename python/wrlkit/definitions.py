@@ -3,6 +3,7 @@ import importlib.machinery
 import importlib.util
 import inspect
 import math
+import numbers
 import os
 import pathlib
 import re
@@ -15,10 +16,14 @@ from . import _wrlkit, arguments
 __all__ = ['Range', 'pass_']
 
 
-class Range(typing.NamedTuple):
+class Range:
     """The least and the most that a number may be: Annotated[float, Range(0, 1)]. None: any."""
-    least: typing.Optional[float] = None
-    most: typing.Optional[float] = None
+
+    def __init__(self, least: typing.Optional[float] = None, most: typing.Optional[float] = None) -> None:
+        for name, value in (('least', least), ('most', most)):
+            if value is not None and not isinstance(value, numbers.Real):
+                raise TypeError(f"Range(): '{name}' should be a number or None, not {arguments.shown(value)}")
+        self.least, self.most = least, most
 
     def __str__(self) -> str:
         if self.most is None:

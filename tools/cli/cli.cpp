@@ -130,7 +130,9 @@ std::string fault_text(const std::string& what, const std::vector<std::string>& 
     options.insert(options.end(), o->get_lnames().begin(), o->get_lnames().end());
     options.insert(options.end(), o->get_snames().begin(), o->get_snames().end());
   }
-  return option_fault(verb->name, words, options, app->get_option_no_throw("OUT") != nullptr, what);
+  const bool lacks_input = app->get_option_no_throw("RECIPE") && what == "IN is required";
+  return option_fault(verb->name, words, options, app->get_option_no_throw("OUT") != nullptr,
+                      lacks_input ? what + "; the recipe, RECIPE, comes before it" : what);
 }
 
 /// "corpus run" for "corpus-run".

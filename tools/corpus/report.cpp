@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <unordered_map>
 
@@ -52,6 +53,13 @@ ReportRow row_of(JournalLine&& l) {
   return r;
 }
 
+/// A name that the journal could not hold as it is counts as that of a file.
+bool is_there(const std::string& input) {
+  constexpr std::string_view replaced = "\xef\xbf\xbd";
+  std::error_code none;
+  return input.find(replaced) != input.npos || std::filesystem::exists(input, none);
+}
+
 std::string number_or_nothing(const std::optional<Look>& look, double Look::*member) {
   return look && std::isfinite(*look.*member) ? fmt::format("{:g}", *look.*member) : "";
 }
@@ -81,13 +89,21 @@ CorpusReport read_report(const std::string& out) {
   // Which line counts is known when all have been read; messages are counted in a second reading.
   std::unordered_map<std::string, std::size_t> last;
   std::size_t n = 0;
-  read_journals(corpus_folder(out), [&](JournalLine&& l) { last[std::move(l.output)] = n++; });
+  bool has_inputs = false;
+  read_journals(corpus_folder(out), [&](JournalLine&& l) {
+    has_inputs = has_inputs || is_there(l.input);
+    last[std::move(l.output)] = n++;
+  });
   CorpusReport report{.out = out};
   report.rows.reserve(last.size());
   n = 0;
   read_journals(corpus_folder(out), [&](JournalLine&& l) {
     const auto at = last.find(l.output);
     if (at == last.end() || at->second != n++) return;
+    if (has_inputs && !is_there(l.input)) {
+      ++report.removed;
+      return;
+    }
     ReportRow counts;
     count_messages(l, counts, report.kinds);
     const auto path = is_made(l.state) ? look_file(out, l) : "";

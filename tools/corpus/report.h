@@ -71,6 +71,7 @@ struct Change {
 struct CorpusReport {
   std::string out;
   std::vector<ReportRow> rows;                             // by output
+  std::size_t removed = 0;                                 // inputs that are no longer there; they have no rows
   std::map<std::string, ReportedKind, std::less<>> kinds;  // by name
   std::string compared;                                    // folder of the other run; empty: none
   std::vector<Change> changes;                             // those that are worse first
@@ -83,6 +84,7 @@ struct CorpusReport {
   void fields(auto&& f) const {
     f("folder", out);
     f("states", states());
+    f("removed", removed);
     f("messages", messages());
     f("files", rows);
     if (compared.empty()) return;
@@ -91,7 +93,8 @@ struct CorpusReport {
   }
 };
 
-/// The last line about each output. Memory: some 300 bytes a file.
+/// The last line about each output whose input is still there; all of them where no input is, because a run may be
+/// reported on another machine. Memory: some 300 bytes a file.
 CorpusReport read_report(const std::string& out);
 /// What is otherwise in `report` than in the run before it.
 void compare(CorpusReport& report, const CorpusReport& before);

@@ -84,12 +84,15 @@ int run_corpus_report(const Flags& flags) {
   const auto& out = flags.inputs[0];
   for (const auto& folder : {out, flags.compare})
     if (!folder.empty() && !fs::is_directory(corpus_folder(folder))) {
-      fmt::print(stderr, "wrlkit: there is no corpus run in '{}'\n", folder);
-      return usage;
+      complain("corpus report", fmt::format("there is no corpus run in '{}'", folder));
+      return nothing;
     }
   if (flags.looks > 0) look(flags, static_cast<std::size_t>(flags.looks));
   auto report = read_report(out);
   if (!flags.compare.empty()) compare(report, read_report(flags.compare));
+  if (report.removed > 0 && !flags.quiet)
+    fmt::print(stderr, "{} {} no longer there and not counted\n", report.removed,
+               report.removed == 1 ? "input is" : "inputs are");
   if (flags.json) print_document(report_json(report));
   auto paths = flags.outputs;
   if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};

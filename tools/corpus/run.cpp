@@ -82,7 +82,7 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
   std::string why;
   Planned p;
   const auto fail = [&] {
-    fmt::print(stderr, "wrlkit: {}\n", why);
+    complain(verb, why);
     return std::nullopt;
   };
   if (!flags.shard.empty()) {
@@ -160,8 +160,8 @@ class Run {
       status.show(at_work());
     }
     if (!good_) {
-      fmt::print(stderr, "wrlkit: the journal in '{}' cannot be written: {}\n", corpus_folder(work_.out),
-                 journal_fault_);
+      complain("corpus run",
+               fmt::format("the journal in '{}' cannot be written: {}", corpus_folder(work_.out), journal_fault_));
       return nothing;
     }
     journal_.settle();
@@ -440,8 +440,8 @@ int run_corpus_run(const Flags& flags) {
   if (!planned) return code;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
-    fmt::print(stderr, "wrlkit: {}\n", why);
-    return usage;
+    complain("corpus run", why);
+    return nothing;
   }
   if (!write_run_recipe(*work, planned->plan)) return usage;
   return Run(flags, *work, *planned, std::move(*journal)).run();
