@@ -113,6 +113,63 @@ async function billboard_and_list() {
   await close();
 }
 
+/// A second of silence as a file.
+function wav() {
+  const rate = 8000, samples = Buffer.alloc(2 * rate), header = Buffer.alloc(44);
+  header.write('RIFF', 0);
+  header.writeUInt32LE(36 + samples.length, 4);
+  header.write('WAVEfmt ', 8);
+  header.writeUInt32LE(16, 16);
+  for (const [at, value] of [[20, 1], [22, 1], [32, 2], [34, 16]]) header.writeUInt16LE(value, at);
+  header.writeUInt32LE(rate, 24);
+  header.writeUInt32LE(2 * rate, 28);
+  header.write('data', 36);
+  header.writeUInt32LE(samples.length, 40);
+  return Buffer.concat([header, samples]);
+}
+
+/// Sounds are off until the user says so; one that repeats is heard as its ellipsoids say, one more by a click, and a file that is none is named.
+async function sounds() {
+  fs.writeFileSync(path.join(folder, 'hum.wav'), wav());
+  fs.writeFileSync(path.join(folder, 'bad.wav'), 'RIFF, but no sound');
+  const sound = (name, file, more = '') => `DEF ${name} Sound { minFront 2 minBack 2 maxFront 22 maxBack 22 source DEF ${name}Clip AudioClip { url "${file}" ${more} } }`;
+  const text = `#X3D V3.3 utf8\nPROFILE Immersive\nViewpoint { position 0 0 10 }
+    Transform { translation -2 0 0 children [ DEF Touch TouchSensor {} ${box('r')} ${sound('Hum', 'hum.wav', 'loop TRUE')} ] }
+    Transform { translation 2 0 0 children [ DEF Off TouchSensor {} ${box('g')} ] }
+    Transform { scale 2 2 2 children [ ${sound('Bell', 'hum.wav')} ${sound('Bad', 'bad.wav')} ${sound('Gone', 'gone.wav')} ] }
+    ROUTE Touch.touchTime TO BellClip.startTime\nROUTE Off.touchTime TO HumClip.stopTime\n`;
+  const {page, faults, close} = await open_world('sounds', text);
+  const playing = () => page.evaluate(() => {
+    window.viewer.mode.stage.drawNow();
+    return window.viewer.mode.behaviour.sounds.playing;
+  });
+  const becomes = async (names, what) => {
+    const until = Date.now() + 30_000;
+    while ((await playing()).map(s => s.name).join() !== names) assert(Date.now() < until, `${what}: ${JSON.stringify(await playing())}`);
+  };
+  assert.equal(await page.locator('#not-run').textContent(), 'Not run here: Sound.');
+  await page.getByLabel('Run the world').check();
+  assert.deepEqual(await playing(), []);
+  await page.getByLabel('Play its sounds').check();
+  await becomes('Hum', 'at first');
+  await page.waitForFunction(() => document.querySelector('#sound-faults')?.textContent === 'Bad: the browser cannot decode it');
+  await page.evaluate(in_page.look, {eye: [-2, 0, 12], target: [-2, 0, 0]});
+  assert(Math.abs((await playing())[0].gain - 10 ** -0.5) < 1e-6, 'half way between the ellipsoids');
+  await page.evaluate(in_page.look, {eye: [-2, 0, 30], target: [-2, 0, 0]});
+  assert.equal((await playing())[0].gain, 0);
+  await page.evaluate(in_page.look, {eye: [0, 0, 10], target: [0, 0, 0]});
+  await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+  await becomes('Hum,Bell', 'by a click');
+  await becomes('Hum', 'after a second');
+  await page.mouse.click(...await page.evaluate(in_page.pixel, [2, 0, 0]));
+  await becomes('', 'stopped');
+  await page.getByLabel('Play its sounds').uncheck();
+  await page.getByLabel('Run the world').uncheck();
+  assert(!await page.getByLabel('Play its sounds').isChecked());
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 /// Off again, the world is as it was; a link runs nothing.
 async function off_and_on() {
   const {page, faults, close} = await open_world('off_and_on', worlds.find(w => w.name === 'switch').world, '#panel=view&run=1');
@@ -271,6 +328,7 @@ try {
   for (const world of [...worlds, hidden_levels]) if (!world.events) await runs(world);
   await anchors();
   await billboard_and_list();
+  await sounds();
   await off_and_on();
   console.log(`${worlds.length} worlds`);
 } finally {

@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "base/io/output.h"
+#include "base/text/base64.h"
 #include "base/text/json.h"
 #include "convert/placing.h"
 #include "convert/shown_surface.h"
@@ -33,6 +34,16 @@ constexpr std::string_view world_pipeline = "gltf-light";
 
 std::vector<std::string> usual_criteria() { return {"length-normal", "melax", "lindstrom-turk"}; }
 constexpr std::size_t usual_most_triangles = 300'000;  // of the usual criteria: seconds, and a few megabytes each
+
+/// The media type of a sound that browsers play, by its first bytes; empty: none.
+std::string_view sound_type(std::string_view bytes) {
+  constexpr std::pair<std::string_view, std::string_view> types[] = {
+      {"RIFF", "audio/wav"},      {"OggS", "audio/ogg"},      {"ID3", "audio/mpeg"},
+      {"\xff\xfb", "audio/mpeg"}, {"\xff\xf3", "audio/mpeg"}, {"fLaC", "audio/flac"}};
+  for (const auto& [first, type] : types)
+    if (bytes.starts_with(first)) return type;
+  return {};
+}
 
 class Viewer {
  public:
@@ -65,6 +76,7 @@ class Viewer {
       return mesh;
     };
     take_scripts(scene);
+    take_sounds(scene);
     const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras,
                               .behaviour = GltfOptions::Behaviour::interactivity};
     auto take = [&](std::string_view bytes) { world.glb += bytes; };
@@ -89,6 +101,33 @@ class Viewer {
       const std::string url = "javascript:" + *text;
       scene.set(n, nodes::script::url, std::vector<std::string_view>{url});
     }
+  }
+
+  /// So do sounds, where browsers can play them.
+  void take_sounds(Scene& scene) {
+    constexpr std::size_t largest = 4 << 20;
+    for (const NodeId n : all_nodes(scene)) {
+      if (!scene.is(n, nodes::AudioClip)) continue;
+      const auto file = file_of(scene, n, scene.get(n, nodes::audio_clip::url));
+      const auto type = file ? sound_type(file->bytes) : "";
+      if (type.empty()) continue;
+      if (file->bytes.size() > largest) {
+        s_.diag().report(Diag::too_large, scene.where(n), "the sound of an AudioClip", "4 MB", file->bytes.size());
+        continue;
+      }
+      const std::string url = fmt::format("data:{};base64,{}", type, base64(file->bytes));
+      scene.set(n, nodes::audio_clip::url, std::vector<std::string_view>{url});
+    }
+  }
+
+  /// The first of the urls that is there; null, unreported, when none is.
+  std::shared_ptr<const Blob> file_of(const Scene& scene, NodeId n, std::span<const std::string_view> urls) {
+    for (const std::string_view url : urls) {
+      const auto kind = s_.resources().target(url, scene.where(n), *scene.sources).kind;
+      const std::array one{url};
+      if (kind == UrlTarget::Kind::file) return s_.resources().bytes(one, scene.where(n), s_.diag());
+    }
+    return nullptr;
   }
 
   void add_collapse(Scene scene, const std::string& name) {

@@ -1,5 +1,5 @@
 // What the world does by itself and when it is clicked: the graph that wrlkit has made of its ROUTEs, and Billboards. It runs when the
-// user says so; Scripts when he says that, too. Sounds and films do not.
+// user says so; Scripts and Sounds when he says that, too. Films do not.
 import type {PerspectiveCamera} from 'three';
 import {typeOf} from '../world/file';
 import type {Part, World} from '../world/world';
@@ -8,6 +8,7 @@ import {GraphRun, type GraphFile} from './graph';
 import {WorldHost} from './host';
 import type {Value} from './operations';
 import {Scripts, scriptsOf} from './scripts';
+import {Sounds, soundsOf} from './sounds';
 
 const secondsBetween = 1;  // events for the page that no click has caused
 
@@ -29,6 +30,8 @@ export class Behaviour {
   private readonly billboards: Billboards;
   readonly programs: ReturnType<typeof scriptsOf>;  // Scripts that can be run
   private scripts: Scripts | null = null;
+  private readonly audible: ReturnType<typeof soundsOf>;
+  sounds: Sounds | null = null;  // while the world runs
   private run: GraphRun | null = null;
   private host: WorldHost | null = null;
   private over: readonly number[] = [];
@@ -40,17 +43,19 @@ export class Behaviour {
     this.graph = graphOf(world);
     this.programs = scriptsOf(world.file, this.graph);
     this.billboards = new Billboards(world);
+    this.audible = soundsOf(world.file);
   }
 
   /// Is there anything that can be run?
-  get any(): boolean { return this.graph !== null || this.billboards.any; }
+  get any(): boolean { return this.graph !== null || this.billboards.any || this.hasSounds; }
+  get hasSounds(): boolean { return this.audible.length > 0; }
 
   /// Types of nodes that do something which the page does not run, and how many there are.
   get lost(): [string, number][] {
     const found = new Map<string, number>();
     for (const [node, {extras}] of (this.world.file.nodes ?? []).entries()) {
       const type = typeOf(extras) ?? '';
-      if (notRun.test(type) && !this.programs.some(p => p.node === node)) found.set(type, (found.get(type) ?? 0) + 1);
+      if (notRun.test(type) && ![...this.programs, ...this.audible].some(p => p.node === node)) found.set(type, (found.get(type) ?? 0) + 1);
     }
     return [...found].sort(([a], [b]) => a.localeCompare(b));
   }
@@ -61,6 +66,8 @@ export class Behaviour {
     this.over = [];
     this.host?.restore();
     this.runScripts(false);
+    this.sounds?.dispose();
+    this.sounds = on ? new Sounds(this.audible, node => this.world.parts.find(p => p.node === node)?.object ?? null, () => this.page.failed()) : null;
     this.run = this.host = null;
     if (on && this.graph) this.guard(() => this.begin(this.graph!));
     if (!on) this.billboards.rest();
@@ -89,6 +96,7 @@ export class Behaviour {
   /// A file from elsewhere may ask in each picture: only a click leads out of the page, and the camera is moved now and then.
   private tell(id: string, value: Value): void {
     if (id.startsWith('to-script:')) return this.scripts?.tell(id, value);
+    if (id.startsWith('sound:')) return this.sounds?.receive(id, value);
     if (!this.clicked && (id.startsWith('open:') || this.time - this.toldAt < secondsBetween)) return;
     this.toldAt = this.time;
     this.page.told(id);
@@ -117,7 +125,11 @@ export class Behaviour {
   }
 
   /// Before each picture.
-  draw(): void { if (this.running) this.billboards.face(this.camera); }
+  draw(): void {
+    if (!this.running) return;
+    this.billboards.face(this.camera);
+    this.sounds?.place(this.camera);
+  }
 
   /// True when something has heard the click.
   click(part: Part | null): boolean {

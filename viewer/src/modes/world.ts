@@ -112,6 +112,12 @@ export class WorldMode implements Mode {
     this.ranOrNot();
   }
 
+  hearSounds(on: boolean): void {
+    this.behaviour.sounds?.hear(on);
+    this.ranOrNot();
+    this.stage.invalidate();
+  }
+
   /// Called when animations or the world begin or end.
   onRun(call: () => void): void { this.runBy.push(call); }
 

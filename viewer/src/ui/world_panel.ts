@@ -161,16 +161,22 @@ export class WorldPanel {
     const {mode} = this, box = check('Run the world (clicks, sensors, clocks)', false, on => mode.run(on)), input = box.querySelector('input')!;
     const fault = h('p', {class: 'soft', role: 'status', id: `run-fault${mode.suffix}`});
     const scripts = check('Run its Scripts (programs in the file)', false, on => mode.runScripts(on)), scriptsInput = scripts.querySelector('input')!;
-    const scriptFaults = h('ul', {class: 'soft', id: `script-faults${mode.suffix}`});
-    scriptsInput.disabled = true;
+    const sounds = check('Play its sounds', false, on => mode.hearSounds(on)), soundsInput = sounds.querySelector('input')!;
+    const scriptFaults = h('ul', {class: 'soft', id: `script-faults${mode.suffix}`}), soundFaults = h('ul', {class: 'soft', id: `sound-faults${mode.suffix}`});
+    scriptsInput.disabled = soundsInput.disabled = true;
+    const list = (element: HTMLElement, texts: readonly string[]): void => element.replaceChildren(...texts.map(text => h('li', {}, text)));
     mode.onRun(() => {
-      input.checked = mode.behaviour.running;
-      scriptsInput.disabled = !mode.behaviour.running;
-      scriptsInput.checked = mode.behaviour.runsScripts;
-      scriptFaults.replaceChildren(...mode.behaviour.scriptFaults.map(text => h('li', {}, text)));
-      fault.textContent = mode.behaviour.fault ? `The world was stopped: ${mode.behaviour.fault}.` : '';
+      const {behaviour} = mode;
+      input.checked = behaviour.running;
+      scriptsInput.disabled = !behaviour.running;
+      scriptsInput.checked = behaviour.runsScripts;
+      soundsInput.checked = behaviour.sounds?.on ?? false;
+      soundsInput.disabled = !behaviour.running;
+      list(scriptFaults, behaviour.scriptFaults);
+      list(soundFaults, behaviour.sounds?.faults ?? []);
+      fault.textContent = behaviour.fault ? `The world was stopped: ${behaviour.fault}.` : '';
     });
-    return mode.behaviour.programs.length > 0 ? [box, fault, scripts, scriptFaults] : [box, fault];
+    return [box, fault, ...(mode.behaviour.programs.length > 0 ? [scripts, scriptFaults] : []), ...(mode.behaviour.hasSounds ? [sounds, soundFaults] : [])];
   }
 
   private bakedLight(): HTMLElement {

@@ -69,6 +69,8 @@ void Cascade::receive(Graph::Flow at, const Events::Hop& hop, const Graph::Value
       return targets_.shine(std::move(at), hop.to, value);
     case Act::bind:
       return targets_.bind(std::move(at), hop.to, value);
+    case Act::sound:
+      return targets_.sound(std::move(at), hop.to, hop.slot, value);
     case Act::listen:
       return listen(std::move(at), hop.to, value);
     case Act::tell_script:

@@ -28,6 +28,7 @@ enum class Act : std::uint8_t {
   move,         // translation, rotation, scale of a Transform
   shine,        // on of a light
   bind,         // Viewpoint.set_bind
+  sound,        // startTime, stopTime, loop and pitch of an AudioClip, intensity of a Sound
   listen,       // enabled of other sensors
   filter,
   toggle,

@@ -50,6 +50,12 @@ Targets::Targets(const Scene& scene, const Document& document, const Animations&
     if (document.nodes[id].choice != none && above != none && document.nodes[above].source)
       chosen_[document.nodes[above].source.value].push_back(id);
   }
+  for (std::uint32_t id = 0; id < document.nodes.size(); ++id) {
+    const NodeId n = document.nodes[id].source;
+    if (!n || !scene.is(n, nodes::Sound)) continue;
+    sounds_[n.value].push_back(id);
+    if (const NodeId clip = scene.get(n, nodes::sound::source)) sounds_[clip.value].push_back(id);
+  }
   for (std::size_t i = 0; i < document.lights.size(); ++i) lights_[document.lights[i].source.value].push_back(i);
 }
 
@@ -89,27 +95,40 @@ void Targets::shine(Graph::Flow at, NodeId n, const Graph::Value& on) {
 }
 
 void Targets::bind(Graph::Flow at, NodeId n, const Graph::Value& bound) {
-  send(graph_.branch(std::move(at), bound).yes, n, "viewpoint:" + std::string(camera_name(scene_, n)));
+  auto yes = graph_.branch(std::move(at), bound).yes;
+  send(yes, n, "set_bind", "viewpoint:" + std::string(camera_name(scene_, n)));
 }
 
 void Targets::open(Graph::Flow at, NodeId anchor) {
   const auto urls = scene_.get(anchor, nodes::anchor::url);
   const std::string_view url = urls[0];
   const bool inside = url.starts_with('#');
-  send(std::move(at), anchor, (inside ? "viewpoint:" : "open:") + std::string(inside ? url.substr(1) : url));
+  send(at, anchor, "url", (inside ? "viewpoint:" : "open:") + std::string(inside ? url.substr(1) : url));
 }
 
-void Targets::send(Graph::Flow at, NodeId from, const std::string& event) {
+void Targets::sound(Graph::Flow at, NodeId n, std::uint16_t slot, const Graph::Value& value) {
+  const FieldDef& field = scene_.type(n).fields[slot];
+  for (const auto id : sounds_[n.value]) {
+    const auto event = "sound:" + std::to_string(id) + ":" + std::string(field.name);
+    if (field.type == FieldType::SFTime)
+      send(at, n, field.name, event);
+    else
+      send(at, n, field.name, event, value);
+  }
+}
+
+void Targets::send(Graph::Flow& at, NodeId from, std::string_view field, const std::string& event,
+                   std::optional<Graph::Value> value) {
   if (!at) return;
-  graph_.send(at, graph_.custom_event(event));
-  sent_.try_emplace(scene_.type(from).name, Sent{from, event});
+  const auto carries = value ? std::optional(value->type) : std::nullopt;
+  graph_.send(at, graph_.custom_event(event, carries), std::move(value));
+  sent_.try_emplace(scene_.type(from).name, Sent{from, field, event});
 }
 
 void Targets::report(Diagnostics& diag) const {
   for (const auto& [type, sent] : sent_)
     diag.report(Diag::no_gltf_value, scene_.where(sent.first), type,
-                std::string(scene_.is(sent.first, nodes::Anchor) ? "url" : "set_bind") + ", other than as the event '" +
-                    sent.event + "' to the viewer,");
+                std::string(sent.field) + ", other than as the event '" + sent.event + "' to the viewer,");
 }
 
 }  // namespace wrlkit::gltf
