@@ -95,6 +95,8 @@ V3 Sky::sphere(const V3& d) const {
   return on_ground ? between(ground_, from_bottom) : between(sky_, from_top);
 }
 
+constexpr Sampler clamped{.s = Wrap::clamp, .t = Wrap::clamp};
+
 V3 Sky::color(const V3& direction, double spread) const {
   if (faces_.empty() && ground_.empty() && sky_.size() == 1) return sky_[0].color;
   V3 d = to_local_.vector(direction);
@@ -104,7 +106,7 @@ V3 Sky::color(const V3& direction, double spread) const {
     double along = dot(d, f.out);
     if (along < largest) continue;
     double s = 0.5 * (dot(d, f.right) / along + 1), t = 0.5 * (dot(d, f.up) / along + 1);
-    Texel texel = f.picture->sample(s, t, 0.5 * spread / along * f.picture->width(), false, false);
+    Texel texel = f.picture->sample(s, t, 0.5 * spread / along * f.picture->width(), clamped);
     return mix(out, texel.color, texel.alpha);
   }
   return out;

@@ -108,17 +108,13 @@ Layer Surfaces::layer(NodeId n, Texture::Means means) {
 }
 
 Layer Surfaces::make_layer(NodeId n, Texture::Means means) {
-  if (scene_.is(n, nodes::PixelTexture)) {
-    namespace f = nodes::pixel_texture;
-    return {Texture::make(image_of(scene_.get(n, f::image)), means), scene_.get(n, f::repeatS),
-            scene_.get(n, f::repeatT)};
-  }
+  const Sampler sampler = read_sampler(scene_, n);
+  if (scene_.is(n, nodes::PixelTexture))
+    return {Texture::make(image_of(scene_.get(n, nodes::pixel_texture::image)), means), sampler};
   if (!scene_.is(n, nodes::ImageTexture) || !resources_) return {};
-  namespace f = nodes::image_texture;
-  auto urls = scene_.get(n, f::url);
+  const auto urls = scene_.get(n, nodes::image_texture::url);
   if (urls.empty()) return {};
-  return {picture(resources_->image(urls, scene_.where(n), diag_), means), scene_.get(n, f::repeatS),
-          scene_.get(n, f::repeatT)};
+  return {picture(resources_->image(urls, scene_.where(n), diag_), means), sampler};
 }
 
 std::shared_ptr<const Texture> Surfaces::picture(const std::shared_ptr<const Image>& image, Texture::Means means) {

@@ -18,10 +18,10 @@ namespace wrlkit::drawing {
 /// A picture that is laid over a surface.
 struct Layer {
   std::shared_ptr<const Texture> texture;  // null: none
-  bool repeat_s = true, repeat_t = true;
+  Sampler sampler{};
 
   Texel sample(const std::array<double, 2>& at, double detail) const {
-    return texture->sample(at[0], at[1], detail, repeat_s, repeat_t);
+    return texture->sample(at[0], at[1], detail, sampler);
   }
 };
 

@@ -6,17 +6,20 @@
 namespace wrlkit::drawing {
 namespace {
 
-/// Into [0, n): going round, or stopping at the border.
-int wrapped(std::int64_t i, int n, bool repeat) {
-  if (!repeat) return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1));
-  std::int64_t r = i % n;
-  return static_cast<int>(r < 0 ? r + n : r);
+/// Into [0, n): going round, back and forth, or stopping at the border.
+int wrapped(std::int64_t i, int n, Wrap wrap) {
+  if (wrap == Wrap::clamp) return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1));
+  const std::int64_t period = wrap == Wrap::mirror ? 2 * std::int64_t{n} : n;
+  std::int64_t r = i % period;
+  if (r < 0) r += period;
+  return static_cast<int>(r < n ? r : period - 1 - r);
 }
 
-/// Of coordinates far outside only the fraction matters; NaN counts as 0.
-double reduced(double v, bool repeat) {
+/// Of coordinates far outside only the place within the period matters; NaN counts as 0.
+double reduced(double v, Wrap wrap) {
   if (!std::isfinite(v)) return 0;
-  return repeat ? v - std::floor(v) : std::clamp(v, 0.0, 1.0);
+  if (wrap == Wrap::mirror) return v - 2 * std::floor(v / 2);
+  return wrap == Wrap::repeat ? v - std::floor(v) : std::clamp(v, 0.0, 1.0);
 }
 
 /// The display value whose light is the mean of that of four.
@@ -66,29 +69,34 @@ Texture::Level Texture::half(const Level& from, Means means) const {
   return to;
 }
 
-void Texture::blend(const Level& level, double s, double t, Wrap wrap, double weight, double out[4]) const {
+void Texture::blend(const Level& level, double s, double t, const Sampler& sampler, double weight,
+                    double out[4]) const {
   double x = s * level.width - 0.5, y = (1 - t) * level.height - 0.5;
   double fx = x - std::floor(x), fy = y - std::floor(y);
   auto ix = static_cast<std::int64_t>(std::floor(x)), iy = static_cast<std::int64_t>(std::floor(y));
+  if (sampler.nearest) {
+    fx = std::round(fx);
+    fy = std::round(fy);
+  }
   for (int k = 0; k < 4; ++k) {
     int dx = k & 1, dy = k >> 1;
     double w = weight * (dx ? fx : 1 - fx) * (dy ? fy : 1 - fy) / 255;
     std::size_t at =
-        std::size_t(wrapped(iy + dy, level.height, wrap.t)) * level.width + wrapped(ix + dx, level.width, wrap.s);
+        std::size_t(wrapped(iy + dy, level.height, sampler.t)) * level.width + wrapped(ix + dx, level.width, sampler.s);
     for (int c = 0; c < channels_; ++c) out[c] += w * level.pixels[at * channels_ + c];
   }
 }
 
-Texel Texture::sample(double s, double t, double detail, bool repeat_s, bool repeat_t) const {
+Texel Texture::sample(double s, double t, double detail, const Sampler& sampler) const {
   double v[4] = {};
-  s = reduced(s, repeat_s);
-  t = reduced(t, repeat_t);
+  s = reduced(s, sampler.s);
+  t = reduced(t, sampler.t);
   double last = static_cast<double>(levels_.size() - 1);
   double level = detail > 1 ? std::min(std::log2(detail), last) : 0;
   auto fine = static_cast<std::size_t>(level);
   double coarse = level - static_cast<double>(fine);
-  blend(levels_[fine], s, t, {repeat_s, repeat_t}, 1 - coarse, v);
-  if (coarse > 0) blend(levels_[fine + 1], s, t, {repeat_s, repeat_t}, coarse, v);
+  blend(levels_[fine], s, t, sampler, 1 - coarse, v);
+  if (coarse > 0) blend(levels_[fine + 1], s, t, sampler, coarse, v);
   return {is_grey() ? V3(v[0]) : V3(v[0], v[1], v[2]), has_alpha() ? v[channels_ - 1] : 1};
 }
 

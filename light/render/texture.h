@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/render/linear.h"
+#include "scenegraph/looks/sampler.h"
 #include "scenegraph/resources.h"
 
 namespace wrlkit::drawing {
@@ -25,8 +26,8 @@ class Texture {
   static std::shared_ptr<const Texture> make(const Image& image, Means means = Means::light);
 
   /// s to the right, t upwards, the picture in [0, 1]. `detail` is the number of its pixels that one sample spans.
-  /// Where it does not repeat, the pixels of the border go on.
-  Texel sample(double s, double t, double detail, bool repeat_s, bool repeat_t) const;
+  /// Where it is clamped, the pixels of the border go on.
+  Texel sample(double s, double t, double detail, const Sampler& sampler) const;
 
   int width() const { return levels_[0].width; }
   int height() const { return levels_[0].height; }
@@ -38,11 +39,8 @@ class Texture {
     int width, height;
     std::vector<std::uint8_t> pixels;
   };
-  struct Wrap {
-    bool s, t;
-  };
   Level half(const Level& from, Means means) const;
-  void blend(const Level& level, double s, double t, Wrap wrap, double weight, double out[4]) const;
+  void blend(const Level& level, double s, double t, const Sampler& sampler, double weight, double out[4]) const;
 
   int channels_ = 0;
   std::vector<Level> levels_;

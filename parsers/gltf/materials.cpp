@@ -8,6 +8,7 @@
 #include "base/io/url.h"
 #include "base/text/base64.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/looks/sampler.h"
 #include "scenegraph/looks/shininess.h"
 #include "scenegraph/nodes.h"
 
@@ -288,21 +289,44 @@ NodeId Materials::make_texture(Json t) {
     std::vector<std::string_view> views(all.begin(), all.end());
     c_.scene.set(n, nodes::image_texture::url, views);
   }
-  constexpr double clamp = 33071, mirror = 33648, nearest = 9728;
-  auto sampler_index = c_.file.index(Table::samplers, t["sampler"]);
-  const Json sampler = sampler_index == none ? Json() : c_.file.at(Table::samplers, sampler_index);
-  const bool pixels = c_.scene.is(n, nodes::PixelTexture);
-  for (auto [name, image_slot, pixel_slot] :
-       {std::tuple{"wrapS", nodes::image_texture::repeatS.slot, nodes::pixel_texture::repeatS.slot},
-        {"wrapT", nodes::image_texture::repeatT.slot, nodes::pixel_texture::repeatT.slot}}) {
-    if (sampler[name].number() == clamp)
-      c_.scene.set(n, c_.scene.make(FieldType::SFBool, pixels ? pixel_slot : image_slot, false));
-    if (sampler[name].number() == mirror) c_.lost.add("MIRRORED_REPEAT", c_.file.where(sampler));
-  }
-  if (sampler["magFilter"].number() == nearest) c_.lost.add("filter NEAREST", c_.file.where(sampler));
+  const auto sampler_index = c_.file.index(Table::samplers, t["sampler"]);
+  if (sampler_index != none) set_sampler(n, c_.file.at(Table::samplers, sampler_index));
   c_.set_name(n, t["name"]);
   c_.lost.keep(c_.file, t);
   return n;
+}
+
+/// Repeated or clamped by repeatS and repeatT; what these cannot say by a TextureProperties.
+void Materials::set_sampler(NodeId n, Json sampler) {
+  namespace i = nodes::image_texture;
+  namespace x = nodes::pixel_texture;
+  namespace p = nodes::texture_properties;
+  constexpr double clamp = 33071, mirror = 33648, nearest = 9728;
+  const double s = sampler["wrapS"].number(), t = sampler["wrapT"].number();
+  const bool pixels = c_.scene.is(n, nodes::PixelTexture);
+  const bool squares = sampler["magFilter"].number() == nearest;
+  if (s != mirror && t != mirror && !squares) {
+    for (auto [wrap, slot] : {std::pair(s, pixels ? x::repeatS.slot : i::repeatS.slot),
+                              std::pair(t, pixels ? x::repeatT.slot : i::repeatT.slot)})
+      if (wrap == clamp) c_.scene.set(n, c_.scene.make(FieldType::SFBool, slot, false));
+    return;
+  }
+  const auto mode = [&](double wrap) -> std::string_view {
+    return wrap == mirror ? "MIRRORED_REPEAT" : wrap == clamp ? "CLAMP_TO_EDGE" : "REPEAT";
+  };
+  const NodeId properties = c_.add(nodes::TextureProperties, sampler);
+  c_.scene.set(properties, p::boundaryModeS, mode(s), p::boundaryModeT, mode(t));
+  if (squares) c_.scene.set(properties, p::magnificationFilter, std::string_view("NEAREST_PIXEL"));
+  const double minified = sampler["minFilter"].number();
+  for (const auto known :
+       {Sampler::Minified::nearest, Sampler::Minified::linear, Sampler::Minified::nearest_mipmap_nearest,
+        Sampler::Minified::linear_mipmap_nearest, Sampler::Minified::nearest_mipmap_linear})
+    if (minified == static_cast<double>(known))
+      c_.scene.set(properties, p::minificationFilter, minification_filter(known));
+  if (pixels)
+    c_.scene.set(n, x::textureProperties, properties);
+  else
+    c_.scene.set(n, i::textureProperties, properties);
 }
 
 std::optional<Image> Materials::decoded(Json image) {

@@ -59,6 +59,7 @@ class Materials {
   NodeId texture(std::uint32_t index);
   NodeId make_texture(Json);
   NodeId pixel_texture(Json texture, Json image);
+  void set_sampler(NodeId texture, Json sampler);
   std::uint32_t image_of(Json texture) const;
   std::optional<Image> decoded(Json image);
   NodeId light_of_linear(std::uint32_t texture);

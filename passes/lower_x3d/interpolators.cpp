@@ -236,14 +236,17 @@ class InterpolatorLowering {
   InterpolatorLowering(Scene& scene, bool report, Diagnostics& diag) : scene_(scene), report_(report), diag_(diag) {}
 
   bool run() {
-    constexpr TypeId types[] = {nodes::SplinePositionInterpolator, nodes::SplineScalarInterpolator,
-                                nodes::SquadOrientationInterpolator, nodes::EaseInEaseOut};
+    constexpr TypeId types[] = {nodes::SplinePositionInterpolator, nodes::SplinePositionInterpolator2D,
+                                nodes::SplineScalarInterpolator, nodes::SquadOrientationInterpolator,
+                                nodes::EaseInEaseOut};
     const auto is_one = [&](NodeId n) { return std::ranges::find(types, scene_.type_id(n)) != std::end(types); };
     if (!any_node(scene_, is_one)) return false;
     std::vector<NodeId> eases;
     for (NodeId n : all_nodes(scene_)) {
       if (scene_.is(n, nodes::SplinePositionInterpolator))
         spline(n, nodes::PositionInterpolator, FieldType::MFVec3f, 3);
+      if (scene_.is(n, nodes::SplinePositionInterpolator2D))
+        spline(n, nodes::PositionInterpolator2D, FieldType::MFVec2f, 2);
       if (scene_.is(n, nodes::SplineScalarInterpolator)) spline(n, nodes::ScalarInterpolator, FieldType::MFFloat, 1);
       if (scene_.is(n, nodes::SquadOrientationInterpolator))
         become(n, nodes::OrientationInterpolator, FieldType::MFRotation, squad(list(n, "key"), list(n, "keyValue")));

@@ -12,6 +12,7 @@
 #include "passes/lower_x3d/two_sides.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/looks/material_node.h"
+#include "scenegraph/looks/sampler.h"
 #include "scenegraph/looks/texture_transform_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -30,7 +31,7 @@ constexpr std::size_t most_pictures = 16;
 struct Sheet {
   NodeId texture;
   std::shared_ptr<const Image> image;
-  bool repeat_s = true, repeat_t = true;
+  Sampler sampler{};
   TexcoordMap places{};
   TextureBlend blend;
 };
@@ -43,10 +44,15 @@ Rgba pixel(const Image& image, int x, int y) {
   return {at(0), at(1), at(2), c == 4 ? at(3) : 1};
 }
 
-/// The number of a pixel beside the border: on the other side, or the border itself.
+/// The number of a pixel beside the border: on the other side, back again, or the border itself.
 /// Places may be farther away than an int can say.
-int wrapped(double i, int n, bool repeat) {
-  const double within = repeat ? i - n * std::floor(i / n) : i;
+int wrapped(double i, int n, Wrap wrap) {
+  double within = i;
+  if (wrap != Wrap::clamp) {
+    const double period = wrap == Wrap::mirror ? 2.0 * n : n;
+    within -= period * std::floor(i / period);
+    if (within >= n) within = period - 1 - within;
+  }
   return static_cast<int>(std::clamp(within, 0.0, n - 1.0));
 }
 
@@ -60,8 +66,8 @@ Rgba sample(const Sheet& sheet, double s, double t) {
     const int dx = corner & 1, dy = corner >> 1;
     const double weight = (dx ? u : 1 - u) * (dy ? v : 1 - v);
     if (weight <= 0) continue;
-    const Rgba p =
-        pixel(image, wrapped(left + dx, image.width, sheet.repeat_s), wrapped(top + dy, image.height, sheet.repeat_t));
+    const Rgba p = pixel(image, wrapped(left + dx, image.width, sheet.sampler.s),
+                         wrapped(top + dy, image.height, sheet.sampler.t));
     for (std::size_t i = 0; i < 4; ++i) out[i] += weight * p[i];
   }
   return out;
@@ -79,8 +85,12 @@ bool is_whole(double v) { return std::abs(v - std::round(v)) < 1e-6 && std::abs(
 
 /// Whether one period of the base holds whole periods of that one.
 bool fits(const TexcoordMap& onto, const Sheet& sheet) {
-  if (sheet.repeat_s && sheet.repeat_t)
-    return is_whole(onto.xx) && is_whole(onto.xy) && is_whole(onto.yx) && is_whole(onto.yy);
+  const auto borders = {sheet.sampler.s, sheet.sampler.t};
+  if (std::ranges::find(borders, Wrap::clamp) == borders.end()) {
+    const bool mirrored = std::ranges::find(borders, Wrap::mirror) != borders.end();
+    return is_whole(onto.xx) && is_whole(onto.xy) && is_whole(onto.yx) && is_whole(onto.yy) &&
+           (!mirrored || (is_whole(onto.x) && is_whole(onto.y)));
+  }
   const TexcoordMap same;
   return std::abs(onto.xx - same.xx) + std::abs(onto.xy) + std::abs(onto.yx) + std::abs(onto.yy - same.yy) +
              std::abs(onto.x) + std::abs(onto.y) <
@@ -178,7 +188,7 @@ class Combiner {
     if (held.size() > most_pictures) return std::nullopt;
     std::vector<Sheet> out;
     for (std::size_t i = 0; i < held.size(); ++i) {
-      Sheet sheet{held[i], nullptr, true, true, {}, blend_of(n, i)};
+      Sheet sheet{.texture = held[i], .image = nullptr, .blend = blend_of(n, i)};
       if (sheet.blend.is_off()) continue;
       const NodeId moved = transform_of(transform, i);
       if (is_driven(held[i]) || is_driven(moved) || !read(sheet)) return std::nullopt;
@@ -203,19 +213,21 @@ class Combiner {
     return i < all.size() ? all[i] : NodeId{};
   }
 
+  NodeId properties_of(NodeId texture) const {
+    return scene_.is(texture, k::PixelTexture) ? scene_.get(texture, k::pixel_texture::textureProperties)
+                                               : scene_.get(texture, k::image_texture::textureProperties);
+  }
+
   bool read(Sheet& sheet) {
     if (scene_.is(sheet.texture, k::PixelTexture)) {
       namespace f = k::pixel_texture;
       sheet.image = std::make_shared<const Image>(drawing::image_of(scene_.get(sheet.texture, f::image)));
-      sheet.repeat_s = scene_.get(sheet.texture, f::repeatS);
-      sheet.repeat_t = scene_.get(sheet.texture, f::repeatT);
     } else if (scene_.is(sheet.texture, k::ImageTexture)) {
       namespace f = k::image_texture;
       const auto urls = scene_.get(sheet.texture, f::url);
       sheet.image = ctx_.resources->image(urls, scene_.where(sheet.texture), ctx_.diag);
-      sheet.repeat_s = scene_.get(sheet.texture, f::repeatS);
-      sheet.repeat_t = scene_.get(sheet.texture, f::repeatT);
     }
+    sheet.sampler = read_sampler(scene_, sheet.texture);
     return sheet.image && sheet.image->width > 0 && sheet.image->height > 0;
   }
 
@@ -226,7 +238,7 @@ class Combiner {
     std::vector<TexcoordMap> onto;
     for (const Sheet& sheet : sheets) {
       onto.push_back(sheet.places * *back);
-      const bool same_border = sheet.repeat_s == sheets[base].repeat_s && sheet.repeat_t == sheets[base].repeat_t;
+      const bool same_border = sheet.sampler.s == sheets[base].sampler.s && sheet.sampler.t == sheets[base].sampler.t;
       if (!same_border || !fits(onto.back(), sheet)) return std::nullopt;
     }
     return onto;
@@ -284,8 +296,10 @@ class Combiner {
     Combined made{scene_.add(k::ImageTexture, scene_.where(n)), {}, lit};
     scene_.set_name(made.texture, scene_.name(n));
     scene_.set(made.texture, f::url, std::vector<std::string_view>{url});
-    if (!base.repeat_s) scene_.set(made.texture, f::repeatS, false);
-    if (!base.repeat_t) scene_.set(made.texture, f::repeatT, false);
+    if (base.sampler.s == Wrap::clamp) scene_.set(made.texture, f::repeatS, false);
+    if (base.sampler.t == Wrap::clamp) scene_.set(made.texture, f::repeatT, false);
+    if (const NodeId properties = properties_of(base.texture))
+      scene_.set(made.texture, f::textureProperties, properties);
     if (base.places == TexcoordMap{}) return made;
     if (const auto moved = texture_transform_of(base.places)) {
       namespace t = k::texture_transform;

@@ -6,6 +6,7 @@
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/texture_background.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/looks/sampler.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
@@ -22,6 +23,7 @@ class Vrml97Lowering {
   bool run() {
     const auto all = all_nodes(scene_);
     for (NodeId n : all) color(n);
+    for (NodeId n : all) borders(n);
     for (NodeId n : all) changed_ |= lower_texture_background(scene_, n, diag_);
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
@@ -54,6 +56,19 @@ class Vrml97Lowering {
     fields.push_back(scene_.make(FieldType::MFColor, nodes::color::color.slot, rgb));
     scene_.become(n, nodes::Color, fields);
     changed_ = true;
+  }
+
+  /// What TextureProperties say of the border of a picture, as far as repeatS and repeatT can.
+  void borders(NodeId n) {
+    const auto take = [&](auto repeat_s, auto repeat_t, auto properties) {
+      if (!scene_.get(n, properties)) return;
+      const Sampler sampler = read_sampler(scene_, n);
+      scene_.set(n, repeat_s, sampler.s != Wrap::clamp, repeat_t, sampler.t != Wrap::clamp);
+    };
+    namespace i = nodes::image_texture;
+    namespace p = nodes::pixel_texture;
+    if (scene_.is(n, nodes::ImageTexture)) take(i::repeatS, i::repeatT, i::textureProperties);
+    if (scene_.is(n, nodes::PixelTexture)) take(p::repeatS, p::repeatT, p::textureProperties);
   }
 
   // ---- what has none ----

@@ -9,6 +9,8 @@ using namespace wrlkit;
 
 namespace {
 
+constexpr Sampler clamped{.s = Wrap::clamp, .t = Wrap::clamp};
+
 /// A page of this many texels along each side: grey that grows to the right, 100 in the lower half.
 std::string page(int side) {
   std::string out =
@@ -40,7 +42,7 @@ std::vector<double> along_diagonal(Lit& w, std::size_t shape_number) {
   std::vector<double> out;
   for (double t = 0.05; t < 1; t += 0.1) {
     const auto [u, v] = map(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]));
-    out.push_back(255 * texture->sample(u, v, 1, false, false).color.x);
+    out.push_back(255 * texture->sample(u, v, 1, clamped).color.x);
   }
   return out;
 }
@@ -130,8 +132,7 @@ TEST_CASE("combine-lightmap: packed again, places of the lightmap itself move", 
               *right = mesh.lightcoord.at(mesh.lightcoord.index[2]);
   const auto texture = drawing::Texture::make(*image);
   auto grey = [&](double t) {
-    return texture->sample(left[0] + t * (right[0] - left[0]), left[1] + t * (right[1] - left[1]), 1, false, false)
-        .color.x;
+    return texture->sample(left[0] + t * (right[0] - left[0]), left[1] + t * (right[1] - left[1]), 1, clamped).color.x;
   };
   CHECK(grey(0.9) > grey(0.1) + 0.1);
 }

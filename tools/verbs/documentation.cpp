@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "convert/formats.h"
 #include "convert/profiles.h"
 #include "scenegraph/access_word.h"
@@ -58,11 +60,15 @@ std::string type_text(const NodeType& t) {
   std::string out = fmt::format("{}  ({})\n  {}\n", t.name, t.clauses, t.doc);
   std::string bases;
   for (auto b : t.bases) bases += (bases.empty() ? "" : ", ") + std::string(b);
-  out += fmt::format("  is a {}\n\n", bases);
+  out += fmt::format("  is a {}\n", bases);
+  if (const auto fate = node_fate(t); !fate.empty()) out += fmt::format("  what becomes of it: {}\n", fate);
+  out += '\n';
+  std::size_t longest = 17;
+  for (auto& f : t.fields) longest = std::max(longest, f.name_in(Dialect::vrml97).size());
   for (auto& f : t.fields) {
     auto name = f.name_in(Dialect::vrml97);
-    out += fmt::format("  {:<13}{:<11}{:<18}{:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name,
-                       f.default_text, limits_text(f), doc_text(t, f));
+    out += fmt::format("  {:<13}{:<11}{:<{}} {:<14} {:<16} {}\n", access_word(f.access), info(f.type).name, name,
+                       longest, f.default_text, limits_text(f), doc_text(t, f));
   }
   return out;
 }

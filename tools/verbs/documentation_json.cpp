@@ -4,6 +4,7 @@
 #include "convert/formats.h"
 #include "scenegraph/access_word.h"
 #include "tools/verbs/message_help.h"
+#include "tools/verbs/node_fates.h"
 
 namespace wrlkit {
 namespace {
@@ -24,7 +25,7 @@ void write_pass(JsonOut& json, const PassInfo& p) {
 
 void write_type(JsonOut& json, const NodeType& t) {
   json.object([&] {
-    json.members("name", t.name, "clauses", t.clauses, "doc", t.doc, "bases", t.bases);
+    json.members("name", t.name, "clauses", t.clauses, "doc", t.doc, "fate", node_fate(t), "bases", t.bases);
     json.list("fields", t.fields, [&](const FieldDef& f) {
       json.object("name", f.name_in(Dialect::vrml97), "access", access_word(f.access), "type", info(f.type).name,
                   "default", f.default_text, "limits", limits_text(f), "doc", doc_text(t, f));

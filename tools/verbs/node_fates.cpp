@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "scenegraph/node_table.h"
-
 namespace wrlkit {
 namespace {
 
@@ -25,7 +23,8 @@ constexpr FateRow rows[] = {
     {"DIS", " EspduTransform ", "a Transform; kept"},
     {"DIS", "", kept},
     {"EnvironmentalEffects", " Background TextureBackground ", "drawn in pictures, in glTF with `--sky`; kept"},
-    {"EnvironmentalEffects", "", "drawn in pictures; kept"},
+    {"EnvironmentalEffects", " Fog ", "drawn in pictures; kept"},
+    {"EnvironmentalEffects", "", kept},
     {"EnvironmentalSensor", " ProximitySensor VisibilitySensor ", run},
     {"EnvironmentalSensor", "", kept},
     {"EventUtilities", "", run},
@@ -33,10 +32,16 @@ constexpr FateRow rows[] = {
     {"Geometry2D", "", drawn},
     {"Geometry3D", "", drawn},
     {"Geospatial", " GeoMetadata GeoProximitySensor GeoTouchSensor ", kept},
+    {"Geospatial", " GeoPositionInterpolator ", animated},
     {"Geospatial", "", "drawn, in metres around the origin"},
     {"Grouping", "", drawn},
     {"HAnim", " HAnimMotion HAnimDisplacer ", kept},
     {"HAnim", "", "drawn in the pose of the file"},
+    {"Interpolation",
+     " ColorInterpolator ScalarInterpolator SplineScalarInterpolator PositionInterpolator2D "
+     "SplinePositionInterpolator2D ",
+     "animations of glTF, those of materials, lights and textures with `--animation-pointer`; kept"},
+    {"Interpolation", " CoordinateInterpolator2D ", kept},
     {"Interpolation", "", animated},
     {"KeyDeviceSensor", "", kept},
     {"Layering", "", "drawn as groups"},
@@ -56,12 +61,17 @@ constexpr FateRow rows[] = {
     {"Picking", "", kept},
     {"PointingDeviceSensor", " TouchSensor ", run},
     {"PointingDeviceSensor", "", kept},
+    {"Rendering", " Tangent ", kept},
     {"Rendering", "", drawn},
-    {"RigidBodyPhysics", "", "kept; what is below them is drawn"},
+    {"RigidBodyPhysics", " CollidableOffset CollidableShape RigidBody RigidBodyCollection ",
+     "what is below them is drawn; kept"},
+    {"RigidBodyPhysics", " Contact ", "events of a CollisionSensor; no file has one"},
+    {"RigidBodyPhysics", "", kept},
     {"Scripting", "", "run when the user asks for it (`--run-startup`, the page of `view`); kept"},
     {"Shaders", "", kept},
     {"Shape", " LineProperties PointProperties ", "drawn in pictures; glTF says that it has none"},
     {"Shape", " FillProperties ", "what is not filled is not drawn; hatches are not, which is reported"},
+    {"Shape", " AcousticProperties ", "kept; no picture"},
     {"Shape", "", drawn},
     {"Sound", "", "kept; no picture"},
     {"Text", "", drawn},
@@ -94,6 +104,11 @@ const FateRow* row_of(const NodeType& t) {
 }
 
 }  // namespace
+
+std::string_view node_fate(const NodeType& t) {
+  const auto* row = row_of(t);
+  return row ? row->fate : std::string_view();
+}
 
 std::string node_fates_table() {
   std::string out = "| component | nodes | what becomes of them |\n|---|---|---|\n";

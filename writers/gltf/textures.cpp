@@ -71,14 +71,8 @@ bool Textures::uses_webp() const {
 }
 
 TextureUse Textures::make(NodeId n, PixelMeaning meaning) {
-  if (scene_.is(n, nodes::ImageTexture)) {
-    namespace f = nodes::image_texture;
-    return make(n, load_file(n, meaning), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
-  }
-  if (scene_.is(n, nodes::PixelTexture)) {
-    namespace f = nodes::pixel_texture;
-    return make(n, load_pixels(n, meaning), {scene_.get(n, f::repeatS), scene_.get(n, f::repeatT)});
-  }
+  if (scene_.is(n, nodes::ImageTexture)) return make(n, load_file(n, meaning), read_sampler(scene_, n));
+  if (scene_.is(n, nodes::PixelTexture)) return make(n, load_pixels(n, meaning), read_sampler(scene_, n));
   if (scene_.is(n, nodes::MovieTexture)) {
     auto urls = scene_.get(n, nodes::movie_texture::url);
     diag_.report(Diag::no_gltf_movie, scene_.where(n), urls.empty() ? std::string_view{} : urls[0]);
@@ -107,7 +101,7 @@ TextureUse Textures::brightness(NodeId n, double scale) {
   return at->second = make(n,
                            stored(n, scene_.name(n).empty() ? "light" : std::string(scene_.name(n)) + "_light", grey,
                                   PixelMeaning::data),
-                           {false, false});
+                           {.s = Wrap::clamp, .t = Wrap::clamp});
 }
 
 TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {

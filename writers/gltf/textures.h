@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "scenegraph/looks/sampler.h"
 #include "scenegraph/resources.h"
 #include "writers/gltf/images.h"
 #include "writers/gltf/recoding.h"
@@ -26,11 +27,6 @@ struct Picture {
 struct Texture {
   std::uint32_t picture = none, sampler = none;
   NodeId source;
-};
-
-struct Sampler {
-  bool repeat_s = true, repeat_t = true;
-  bool operator==(const Sampler&) const = default;
 };
 
 /// What a material must know of a texture.

@@ -6,7 +6,8 @@ namespace wrlkit::gltf {
 namespace {
 
 constexpr int array_buffer = 34962, element_array_buffer = 34963;
-constexpr int linear_filter = 9729, linear_mipmap_linear = 9987, repeat = 10497, clamp_to_edge = 33071;
+constexpr int nearest_filter = 9728, linear_filter = 9729, repeat = 10497, clamp_to_edge = 33071,
+              mirrored_repeat = 33648;
 
 class BufferJson : public JsonPart {
  public:
@@ -38,9 +39,10 @@ class BufferJson : public JsonPart {
 
   void sampler(const Sampler& s) {
     json_.object([&] {
-      json_.members("magFilter", linear_filter, "minFilter", linear_mipmap_linear);
-      if (!s.repeat_s) json_.member("wrapS", clamp_to_edge);
-      if (!s.repeat_t) json_.member("wrapT", clamp_to_edge);
+      json_.members("magFilter", s.nearest ? nearest_filter : linear_filter, "minFilter",
+                    static_cast<std::uint32_t>(s.minified));
+      for (const auto& [name, wrap] : {std::pair("wrapS", s.s), {"wrapT", s.t}})
+        if (wrap != Wrap::repeat) json_.member(name, wrap == Wrap::clamp ? clamp_to_edge : mirrored_repeat);
     });
   }
 
