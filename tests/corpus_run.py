@@ -372,7 +372,7 @@ def report(tmp):
     changes = {c['output']: c for c in json.loads(text)['changes']}
     check('what became worse since another run', code == 1 and changes['ball.glb']['worse'] and not changes['new.glb']['worse'], code, err, changes)
     code, _, err = corpus(tmp, verb='report')
-    check('wrong usage: no run there', code == 2 and 'no corpus run' in err, code, err)
+    check('wrong usage: no run there', code == 3 and 'no corpus run' in err, code, err)
 
 
 def main():
