@@ -32,7 +32,7 @@ Scenes without such nodes do not change. Cost: O(scene).
 `materials` also converts the first three nodes below. `vrml97` converts everything else that VRML97 cannot express to
 something similar, or drops and reports it:
 
-    PhysicalMaterial, of base colour b, metallic m and roughness r   ->   Material
+    PhysicalMaterial, of base colour b as displayed, metallic m and roughness r   ->   Material
       diffuseColor b (1 - m/2)   specularColor (0.04 (1 - m) + b m) (1 - r)   shininess (2/r^4 - 2) / 128, from 0 to 1
     UnlitMaterial      ->   black Material with that emissiveColor; no Material if it is opaque and white, or if the
                            geometry has colours

@@ -1,5 +1,6 @@
 #include "scenegraph/looks/material_node.h"
 
+#include "base/image/srgb.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -42,11 +43,20 @@ MaterialNode read_phong(const Scene& scene, NodeId n) {
   return to;
 }
 
+/// As displayed: X3D takes the numbers of a PhysicalMaterial from glTF, where they are linear.
+Vec3 displayed(Vec3 linear) {
+  for (double& v : linear)
+    if (v > 0) v = linear_to_srgb(v);
+  return linear;
+}
+
 MaterialNode read_physical(const Scene& scene, NodeId n) {
   namespace f = nodes::physical_material;
   MaterialNode to = read_common(scene, n, f::baseColor, f::baseTexture, f::emissiveColor, f::transparency,
                                 f::normalScale, f::normalTexture);
   read_lit(scene, n, to, f::emissiveTexture, f::occlusionStrength, f::occlusionTexture);
+  to.color = displayed(to.color);
+  to.emissive = displayed(to.emissive);
   to.kind = MaterialNode::Kind::physical;
   to.metallic = scene.get(n, f::metallic);
   to.roughness = scene.get(n, f::roughness);

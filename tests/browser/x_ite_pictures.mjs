@@ -36,6 +36,16 @@ const worlds = {
   swept: shape('NurbsSweptSurface { solid FALSE crossSectionCurve ContourPolyline2D { controlPoint [ 0.6 0.6, -0.6 0.6, -0.6 -0.6, 0.6 -0.6, 0.6 0.6 ] } trajectoryCurve NurbsCurve { order 3 knot [ 0 0 0 1 1 1 ] controlPoint Coordinate { point [ -2 -1 0, 0 2 0, 2 -1 0 ] } } }'),
   cad: `CADAssembly { children CADPart { translation -1 0 0 rotation 0 0 1 0.5 children [ CADFace { shape ${shape('Box { size 1 2 1 }')} } CADFace { shape Shape { ${green} geometry QuadSet { solid FALSE coord Coordinate { point [ 1 -1 0, 3 -1 0, 3 1 0, 1 1 0 ] } } } } ] } }`,
   trimmed: `Transform { rotation 1 0 0 0.9 children ${shape(`NurbsTrimmedSurface { ${hill} trimmingContour [ Contour2D { children ContourPolyline2D { controlPoint [ 0 0, 1 0, 1 1, 0 1, 0 0 ] } } Contour2D { children ContourPolyline2D { controlPoint [ 0.3 0.3, 0.3 0.7, 0.7 0.7, 0.7 0.3, 0.3 0.3 ] } } ] }`)} }`,
+  multi_texture: shape('Rectangle2D { size 4 4 }', `appearance Appearance { material UnlitMaterial { emissiveColor 1 1 1 } texture MultiTexture { mode "MODULATE" texture [ ${tiles} PixelTexture { repeatS FALSE repeatT FALSE image 2 1 3 0xFF8080 0x80FF80 } ] } }`),
+  mirrored: shape('Rectangle2D { size 4 4 }', `appearance Appearance { material UnlitMaterial { emissiveColor 1 1 1 } texture ${tiles.replaceAll('CLAMP_TO_EDGE', 'MIRRORED_REPEAT')} textureTransform TextureTransform { scale 2.5 2.5 } }`),
+  texture_3d: shape('Rectangle2D { size 4 4 }', `appearance Appearance { material UnlitMaterial { emissiveColor 1 1 1 } texture ${tiles} textureTransform TextureTransform3D { rotation 0 0 1 0.5 center 0.5 0.5 0 scale 0.8 0.7 1 translation 0.1 0.05 0 } }`),
+  two_sided: `Transform { rotation 0 1 0 2.4 children ${shape('Rectangle2D { size 3 3 solid FALSE }', 'appearance Appearance { material TwoSidedMaterial { diffuseColor 0.9 0.1 0.1 separateBackColor TRUE backDiffuseColor 0.1 0.2 0.9 } }')} }`,
+  // Widths of lines and sizes of points are none of them: they count in that of a plain one, which is the browser's. Nor is a PhysicalMaterial: its
+  // lamps are as bright here as in the glTF that is made of it, and X_ITE divides them by pi.
+  unlit: shape('Sphere { radius 1.8 }', 'appearance Appearance { material UnlitMaterial { emissiveColor 0.9 0.5 0.1 } }'),
+  fans: shape('IndexedTriangleFanSet { solid FALSE index [ 0 1 2 3 4 -1 ] coord Coordinate { point [ 0 -1.5 0, 2 -0.5 0, 1 1 0.4, -1 1.2 0, -2 -0.6 0.3 ] } }'),
+  from_places: shape('IndexedFaceSet { solid FALSE coordIndex [ 0 1 2 3 -1 ] coord Coordinate { point [ -0.2 -0.1 0, 1.4 0 0, 1.1 1.2 0, 0 0.9 0 ] } texCoord TextureCoordinateGenerator { mode "COORD" } }',
+    `appearance Appearance { material UnlitMaterial { emissiveColor 1 1 1 } texture ${tiles} }`),
   generated: shape('Box { size 2.5 2.5 2.5 }', `appearance Appearance { material UnlitMaterial { emissiveColor 1 1 1 } texture ${tiles} }`),
 };
 

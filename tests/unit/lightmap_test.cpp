@@ -315,7 +315,7 @@ TEST_CASE("combine-lightmap: on the way to VRML97 the picture has what X3D and V
            " } IndexedFaceSet { coordIndex [ 0, 1, 2, 3, -1 ] } }"},
       {"Material", x3d, in_x3d("Material { diffuseColor " + orange + "diffuseTexture " + picture + "}")},
       {"PhysicalMaterial", x3d,
-       in_x3d("PhysicalMaterial { metallic 0 baseColor " + orange + "baseTexture " + picture + "}")},
+       in_x3d("PhysicalMaterial { metallic 0 baseColor 1 0.21404114 0.05087609 baseTexture " + picture + "}")},
       {"colours of vertices", x3d,
        lamp + "Shape { appearance Appearance { material Material { } texture " + picture + "} " + faces +
            "color Color { color [ " + orange + orange + orange + orange + "] } } }"},

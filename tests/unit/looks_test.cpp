@@ -46,7 +46,11 @@ TEST_CASE("looks: a material, whichever of the three it is") {
   CHECK_FALSE(phong->color_picture);
   const auto physical = material("PhysicalMaterial { baseColor 0 0 1 baseTexture PixelTexture { } }");
   REQUIRE(physical);
-  CHECK(physical->color == Vec3{0, 0, 1});
+  CHECK(physical->color[0] == 0);
+  CHECK(physical->color[2] == Approx(1));
+  const auto linear = material("PhysicalMaterial { baseColor 0.21404114 0 0 emissiveColor 0 0.21404114 0 }");
+  CHECK(linear->color[0] == Approx(0.5));
+  CHECK(linear->emissive[1] == Approx(0.5));
   CHECK(physical->metallic == 1);
   CHECK(physical->color_picture);
   CHECK(physical->color_picture_slot == nodes::physical_material::baseTexture.slot);

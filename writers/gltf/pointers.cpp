@@ -24,20 +24,26 @@ class Pointers {
       for (std::string_view picture : m.mapped)
         texture_transform(at + "/" + std::string(picture) + "/extensions/KHR_texture_transform", m.transform);
     if (!m.source) return;
-    // The fields that are looked at, a missing one as it stands.
+    // The fields that are looked at, a missing one as it stands. Those of a PhysicalMaterial are linear.
+    const bool physical = scene_.is(m.source, nodes::PhysicalMaterial);
+    const auto moved = [physical](const Property::At& field, const Vec3& displayed) {
+      return physical ? vec3(field.value(sample(all_linear(displayed))))
+                      : all_linear(vec3(field.value(sample(displayed))));
+    };
     auto base = [=](In in, Out& out) {
-      const Sample color = m.base_field.empty() ? sample(m.base) : in[0].value(sample(m.base));
-      for (std::size_t i = 0; i < 3; ++i) out.push_back(linear(color[i]));
+      const Vec3 color = m.base_field.empty() ? all_linear(m.base) : moved(in[0], m.base);
+      out.insert(out.end(), color.begin(), color.end());
       out.push_back(m.shows_alpha ? 1 - unit_range(in.back().value({1 - m.alpha})[0]) : m.alpha);
     };
     add(at + "/pbrMetallicRoughness/baseColorFactor", 4, m.source, {m.base_field, m.shows_alpha ? "transparency" : ""},
         base, false);
     auto emissive = [=](In in, Out& out) {
-      for (double v : vec3(in[0].value(sample(m.emissive)))) out.push_back(linear(v));
+      const Vec3 color = moved(in[0], m.emissive);
+      out.insert(out.end(), color.begin(), color.end());
     };
     if (m.shows_emissive) add(at + "/emissiveFactor", 3, m.source, {"emissiveColor"}, emissive, false);
     if (!m.lit) return;
-    if (scene_.is(m.source, nodes::PhysicalMaterial)) {
+    if (physical) {
       for (auto [field, factor] : {std::pair{"metallic", "metallicFactor"}, {"roughness", "roughnessFactor"}})
         add(
             at + "/pbrMetallicRoughness/" + factor, 1, m.source, {field},
@@ -104,6 +110,7 @@ class Pointers {
  private:
   static Sample sample(const Vec3& v) { return {v[0], v[1], v[2], 0}; }
   static Vec3 vec3(const Sample& s) { return {s[0], s[1], s[2]}; }
+  static Vec3 all_linear(const Vec3& v) { return {linear(v[0]), linear(v[1]), linear(v[2])}; }
 
   /// Unless none of the fields is moved.
   void add(std::string pointer, std::size_t width, NodeId source, std::initializer_list<std::string_view> fields,
