@@ -14,6 +14,7 @@
 #include "passes/lower_x3d/particles.h"
 #include "passes/lower_x3d/plant_shapes.h"
 #include "passes/lower_x3d/product.h"
+#include "passes/lower_x3d/surface_interpolators.h"
 #include "passes/lower_x3d/texcoords_3d.h"
 #include "passes/lower_x3d/two_sides.h"
 #include "passes/lower_x3d/vrml97.h"
@@ -65,6 +66,7 @@ Outcome lower_x3d(Scene& scene, const LowerX3dOptions& options, PassContext& ctx
   bool changed = x3d::place_on_earth(scene, ctx.diag);
   changed |= lower_curves(scene, options, ctx.diag);
   changed |= x3d::lower_interpolators(scene, options.vrml97, ctx.diag);
+  changed |= x3d::lower_surface_interpolators(scene, options.tolerance, ctx.diag);
   changed |= x3d::lower_plant_shapes(scene, ctx.diag);
   changed |= x3d::lower_particles(scene, ctx);
   changed |= x3d::combine_multi_textures(scene, ctx);

@@ -58,6 +58,42 @@ class NurbsLowering {
     return false;
   }
 
+  /// As the point that `key` and `places`, from 0 to 1 along u and v, lead over the surface.
+  bool surface_interpolator(std::span<const double> key, std::span<const double> places) {
+    constexpr std::size_t most_pieces = 64;
+    const auto p = control_points(n_);
+    const auto s = surface_of(n_, p, 3);
+    const std::size_t n = std::min(key.size(), places.size() / 2);
+    if (!s || n == 0) return false;
+    const auto point = [&](std::size_t i, double t) {
+      const auto place = [&](const Basis& b, std::size_t k) {
+        const double from = places[2 * i + k], to = i + 1 < n ? places[2 * (i + 1) + k] : from;
+        return b.first() + std::clamp(from + t * (to - from), 0.0, 1.0) * (b.last() - b.first());
+      };
+      return s->at(place(s->u, 0), place(s->v, 1));
+    };
+    const auto near = [&](std::size_t i, std::size_t pieces) {
+      for (std::size_t k = 0; k < pieces; ++k) {
+        const auto at = [&](double t) { return point(i, (static_cast<double>(k) + t) / static_cast<double>(pieces)); };
+        if (length(at(0.5) - 0.5 * (at(0) + at(1))) > tolerance(p, 3)) return false;
+      }
+      return true;
+    };
+    std::vector<double> keys, values;
+    for (std::size_t i = 0; i < n; ++i) {
+      std::size_t pieces = 1;
+      while (i + 1 < n && pieces < most_pieces && !near(i, pieces)) pieces *= 2;
+      for (std::size_t k = 0; k < pieces; ++k) {
+        const double t = static_cast<double>(k) / static_cast<double>(pieces);
+        const Vec3 at = point(i, t);
+        keys.push_back(i + 1 < n ? key[i] + t * (key[i + 1] - key[i]) : key[i]);
+        values.insert(values.end(), at.begin(), at.end());
+      }
+    }
+    become_interpolator(nodes::PositionInterpolator, FieldType::MFVec3f, keys, values);
+    return true;
+  }
+
  private:
   // ---- the values of the fields ----
 
@@ -394,6 +430,11 @@ class NurbsLowering {
         value.insert(value.end(), turn.begin(), turn.end());
       }
     }
+    become_interpolator(type, values, key, value);
+  }
+
+  void become_interpolator(TypeId type, FieldType values, const std::vector<double>& key,
+                           const std::vector<double>& value) {
     auto fields = fields_for(scene_, n_, type);
     auto slot = [&](std::string_view name) { return *scene_.type(type).find(name, Dialect::x3d); };
     fields.push_back(scene_.make(FieldType::MFFloat, slot("key"), key));
@@ -422,6 +463,10 @@ bool lower_nurbs(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) {
 }
 bool lower_nurbs_interpolator(Scene& scene, NodeId n, double tolerance, Diagnostics& diag) {
   return NurbsLowering(scene, n, tolerance, diag).interpolator();
+}
+bool lower_surface_interpolator(Scene& scene, NodeId n, std::span<const double> key, std::span<const double> places,
+                                double tolerance, Diagnostics& diag) {
+  return NurbsLowering(scene, n, tolerance, diag).surface_interpolator(key, places);
 }
 
 }  // namespace wrlkit::x3d
