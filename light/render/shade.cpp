@@ -82,12 +82,20 @@ Texel Shader::shade(const Ray& ray, const Hit& hit) const {
   const PooledMesh& m = drawing_.meshes[drawing_.mesh_of[hit.use]];
   Texel out;
   if (m.kind == Mesh::Kind::faces)
-    out = shade_face(ray, hit, s);
+    out = hatched(s, ray, hit, shade_face(ray, hit, s));
   else if (auto own = vertex_color(drawing_.meshes, m, hit))
     out = {own->color, own->alpha * s.alpha};
   else
     out = {s.lit ? s.emissive : V3(1), s.alpha};  // IndexedLineSet and PointSet (6.24, 6.36)
   return {displayed(fog_.dim(displayed(out.color), hit.distance * ray.direction)), displayed(out.alpha)};
+}
+
+Texel Shader::hatched(const Surface& s, const Ray& ray, const Hit& hit, const Texel& below) const {
+  if (!s.hatch) return below;
+  const V3 at = camera_.project(ray.origin + hit.distance * ray.direction);
+  const double unit = camera_.height / 60.0;
+  if (s.hatch->covers(at.x / at.z / unit, at.y / at.z / unit)) return {s.hatch->color, below.alpha};
+  return {below.color, s.hatch->is_filled ? below.alpha : 0};
 }
 
 Texel Shader::shade_face(const Ray& ray, const Hit& hit, const Surface& s) const {

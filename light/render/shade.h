@@ -46,6 +46,8 @@ class Shader {
 
  private:
   Texel shade(const Ray& ray, const Hit& hit) const;
+  /// With the lines of its FillProperties.
+  Texel hatched(const Surface&, const Ray&, const Hit&, const Texel& below) const;
   Texel shade_face(const Ray& ray, const Hit& hit, const Surface& surface) const;
   /// What the further pictures of a material change.
   struct Further {

@@ -68,6 +68,7 @@ Surface Surfaces::make(NodeId appearance) {
   s.picture = layer(texture || !material ? texture : material->color_picture);
   if (s.lit) further_pictures(s, *material);
   read_alpha_mode(s, appearance);
+  s.hatch = read_hatch(scene_, scene_.get(appearance, f::fillProperties));
   s.baked = baked_light(appearance);
   return s;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "light/render/hatch.h"
 #include "light/render/light.h"
 #include "light/render/texture.h"
 #include "scenegraph/looks/material_node.h"
@@ -50,6 +51,7 @@ struct Surface {
   double bump_scale = 1, shadow_strength = 1;
   std::optional<double> cutoff;  // alphaMode MASK: what is less is not there
   bool opaque = false;           // alphaMode OPAQUE
+  std::optional<Hatch> hatch;
   TexcoordMap texcoords;
   BakedLight baked;
 

@@ -67,3 +67,31 @@ TEST_CASE("render: widths of lines and sizes of points") {
         Approx(9).epsilon(0.25));
   CHECK(lit("pointProperties PointProperties { pointSizeScaleFactor 3 }", dot) == small);
 }
+
+TEST_CASE(
+    "render: hatches are horizontal lines a sixtieth of the height apart, and all that is seen of what is not filled") {
+  const auto drawn = [](const std::string& fill) {
+    Studio s;
+    s.header = "#X3D V4.0 utf8\nPROFILE Full\n";
+    s.options.width = s.options.height = 240;
+    s.options.samples = 1;
+    const std::string look =
+        "material UnlitMaterial { emissiveColor 0 0 1 } fillProperties FillProperties { " + fill + " }";
+    const std::string square =
+        "IndexedFaceSet { coordIndex [ 0 1 2 3 -1 ] coord Coordinate { point [ -9 -9 0, 9 -9 0, 9 9 0, -9 9 0 ] } }";
+    return s.render("Background { skyColor 0 1 0 } " + view + "Shape { appearance Appearance { " + look +
+                    " } geometry " + square + " }");
+  };
+  const auto rows = [](const Image& image, const Rgb& color) {
+    int n = 0;
+    for (int y = 0; y < image.height; ++y) n += pixel(image, image.width / 2, y) == color;
+    return n;
+  };
+  const Rgb red{255, 0, 0}, blue{0, 0, 255}, green{0, 255, 0};
+  const Image filled = drawn("hatchColor 1 0 0"), open = drawn("hatchColor 1 0 0 filled FALSE");
+  CHECK(rows(filled, red) == 60);
+  CHECK(rows(filled, blue) == 180);
+  CHECK(rows(open, red) == 60);
+  CHECK(rows(open, green) == 180);
+  CHECK(rows(drawn("hatched FALSE"), blue) == 240);
+}
