@@ -95,7 +95,7 @@ V3 Sky::sphere(const V3& d) const {
   return on_ground ? between(ground_, from_bottom) : between(sky_, from_top);
 }
 
-constexpr Sampler clamped{.s = Wrap::clamp, .t = Wrap::clamp};
+constexpr TextureSampler clamped{.s = Wrap::clamp, .t = Wrap::clamp};
 
 V3 Sky::color(const V3& direction, double spread) const {
   if (faces_.empty() && ground_.empty() && sky_.size() == 1) return sky_[0].color;

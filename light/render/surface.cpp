@@ -109,7 +109,7 @@ Layer Surfaces::layer(NodeId n, Texture::Means means) {
 }
 
 Layer Surfaces::make_layer(NodeId n, Texture::Means means) {
-  const Sampler sampler = read_sampler(scene_, n);
+  const TextureSampler sampler = read_sampler(scene_, n);
   if (scene_.is(n, nodes::PixelTexture))
     return {Texture::make(image_of(scene_.get(n, nodes::pixel_texture::image)), means), sampler};
   if (!scene_.is(n, nodes::ImageTexture) || !resources_) return {};

@@ -19,7 +19,7 @@ namespace wrlkit::drawing {
 /// A picture that is laid over a surface.
 struct Layer {
   std::shared_ptr<const Texture> texture;  // null: none
-  Sampler sampler{};
+  TextureSampler sampler{};
 
   Texel sample(const std::array<double, 2>& at, double detail) const {
     return texture->sample(at[0], at[1], detail, sampler);

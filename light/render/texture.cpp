@@ -69,7 +69,7 @@ Texture::Level Texture::half(const Level& from, Means means) const {
   return to;
 }
 
-void Texture::blend(const Level& level, double s, double t, const Sampler& sampler, double weight,
+void Texture::blend(const Level& level, double s, double t, const TextureSampler& sampler, double weight,
                     double out[4]) const {
   double x = s * level.width - 0.5, y = (1 - t) * level.height - 0.5;
   double fx = x - std::floor(x), fy = y - std::floor(y);
@@ -87,7 +87,7 @@ void Texture::blend(const Level& level, double s, double t, const Sampler& sampl
   }
 }
 
-Texel Texture::sample(double s, double t, double detail, const Sampler& sampler) const {
+Texel Texture::sample(double s, double t, double detail, const TextureSampler& sampler) const {
   double v[4] = {};
   s = reduced(s, sampler.s);
   t = reduced(t, sampler.t);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "light/render/linear.h"
-#include "scenegraph/looks/sampler.h"
+#include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/resources.h"
 
 namespace wrlkit::drawing {
@@ -27,7 +27,7 @@ class Texture {
 
   /// s to the right, t upwards, the picture in [0, 1]. `detail` is the number of its pixels that one sample spans.
   /// Where it is clamped, the pixels of the border go on.
-  Texel sample(double s, double t, double detail, const Sampler& sampler) const;
+  Texel sample(double s, double t, double detail, const TextureSampler& sampler) const;
 
   int width() const { return levels_[0].width; }
   int height() const { return levels_[0].height; }
@@ -40,7 +40,7 @@ class Texture {
     std::vector<std::uint8_t> pixels;
   };
   Level half(const Level& from, Means means) const;
-  void blend(const Level& level, double s, double t, const Sampler& sampler, double weight, double out[4]) const;
+  void blend(const Level& level, double s, double t, const TextureSampler& sampler, double weight, double out[4]) const;
 
   int channels_ = 0;
   std::vector<Level> levels_;

@@ -8,8 +8,8 @@
 #include "base/io/url.h"
 #include "base/text/base64.h"
 #include "scenegraph/equal.h"
-#include "scenegraph/looks/sampler.h"
 #include "scenegraph/looks/shininess.h"
+#include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::gltf_reader {
@@ -319,8 +319,9 @@ void Materials::set_sampler(NodeId n, Json sampler) {
   if (squares) c_.scene.set(properties, p::magnificationFilter, std::string_view("NEAREST_PIXEL"));
   const double minified = sampler["minFilter"].number();
   for (const auto known :
-       {Sampler::Minified::nearest, Sampler::Minified::linear, Sampler::Minified::nearest_mipmap_nearest,
-        Sampler::Minified::linear_mipmap_nearest, Sampler::Minified::nearest_mipmap_linear})
+       {TextureSampler::Minified::nearest, TextureSampler::Minified::linear,
+        TextureSampler::Minified::nearest_mipmap_nearest, TextureSampler::Minified::linear_mipmap_nearest,
+        TextureSampler::Minified::nearest_mipmap_linear})
     if (minified == static_cast<double>(known))
       c_.scene.set(properties, p::minificationFilter, minification_filter(known));
   if (pixels)

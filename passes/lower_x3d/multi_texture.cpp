@@ -12,7 +12,7 @@
 #include "passes/lower_x3d/two_sides.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/looks/material_node.h"
-#include "scenegraph/looks/sampler.h"
+#include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/looks/texture_transform_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -31,7 +31,7 @@ constexpr std::size_t most_pictures = 16;
 struct Sheet {
   NodeId texture;
   std::shared_ptr<const Image> image;
-  Sampler sampler{};
+  TextureSampler sampler{};
   TexcoordMap places{};
   TextureBlend blend;
 };

@@ -6,7 +6,7 @@
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/texture_background.h"
 #include "scenegraph/equal.h"
-#include "scenegraph/looks/sampler.h"
+#include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
@@ -62,7 +62,7 @@ class Vrml97Lowering {
   void borders(NodeId n) {
     const auto take = [&](auto repeat_s, auto repeat_t, auto properties) {
       if (!scene_.get(n, properties)) return;
-      const Sampler sampler = read_sampler(scene_, n);
+      const TextureSampler sampler = read_sampler(scene_, n);
       scene_.set(n, repeat_s, sampler.s != Wrap::clamp, repeat_t, sampler.t != Wrap::clamp);
     };
     namespace i = nodes::image_texture;

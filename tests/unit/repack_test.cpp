@@ -9,7 +9,7 @@ using namespace wrlkit;
 
 namespace {
 
-constexpr Sampler clamped{.s = Wrap::clamp, .t = Wrap::clamp};
+constexpr TextureSampler clamped{.s = Wrap::clamp, .t = Wrap::clamp};
 
 /// A page of this many texels along each side: grey that grows to the right, 100 in the lower half.
 std::string page(int side) {

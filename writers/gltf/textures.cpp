@@ -104,7 +104,7 @@ TextureUse Textures::brightness(NodeId n, double scale) {
                            {.s = Wrap::clamp, .t = Wrap::clamp});
 }
 
-TextureUse Textures::make(NodeId n, const Loaded& loaded, Sampler sampler) {
+TextureUse Textures::make(NodeId n, const Loaded& loaded, TextureSampler sampler) {
   if (loaded.picture == none) return {};
   auto s = static_cast<std::uint32_t>(std::ranges::find(samplers_, sampler) - samplers_.begin());
   if (s == samplers_.size()) samplers_.push_back(sampler);

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scenegraph/looks/sampler.h"
+#include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/resources.h"
 #include "writers/gltf/images.h"
 #include "writers/gltf/recoding.h"
@@ -52,7 +52,7 @@ class Textures {
 
   const std::vector<Picture>& pictures() const { return pictures_; }
   const std::vector<Texture>& textures() const { return textures_; }
-  const std::vector<Sampler>& samplers() const { return samplers_; }
+  const std::vector<TextureSampler>& samplers() const { return samplers_; }
   bool uses_webp() const;
   const GltfSummary::Recoding& recoding() const { return recoding_; }
 
@@ -63,7 +63,7 @@ class Textures {
     Alpha alpha = Alpha::opaque;
   };
   TextureUse make(NodeId, PixelMeaning);
-  TextureUse make(NodeId, const Loaded&, Sampler);
+  TextureUse make(NodeId, const Loaded&, TextureSampler);
   Loaded load_file(NodeId, PixelMeaning);
   std::shared_ptr<const Image> image(NodeId);
   Loaded load_pixels(NodeId, PixelMeaning);
@@ -82,7 +82,7 @@ class Textures {
   std::unordered_map<std::string_view, std::uint32_t> by_bytes_;
   std::vector<Picture> pictures_;
   std::vector<Texture> textures_;
-  std::vector<Sampler> samplers_;
+  std::vector<TextureSampler> samplers_;
   GltfSummary::Recoding recoding_;
 };
 

@@ -37,7 +37,7 @@ class BufferJson : public JsonPart {
     });
   }
 
-  void sampler(const Sampler& s) {
+  void sampler(const TextureSampler& s) {
     json_.object([&] {
       json_.members("magFilter", s.nearest ? nearest_filter : linear_filter, "minFilter",
                     static_cast<std::uint32_t>(s.minified));

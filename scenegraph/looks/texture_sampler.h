@@ -7,7 +7,7 @@ namespace wrlkit {
 
 enum class Wrap : std::uint8_t { repeat, clamp, mirror };
 
-struct Sampler {
+struct TextureSampler {
   /// Of a picture that is shown smaller, by their numbers in glTF 2.0 (5.27): within a level of its pyramid, and
   /// between levels.
   enum class Minified : std::uint16_t {
@@ -23,13 +23,13 @@ struct Sampler {
   bool nearest = false;  // shown larger, its pixels are squares
   Minified minified = Minified::linear_mipmap_linear;
 
-  bool operator==(const Sampler&) const = default;
+  bool operator==(const TextureSampler&) const = default;
 };
 
 /// The value of TextureProperties.minificationFilter that means it.
-std::string_view minification_filter(Sampler::Minified);
+std::string_view minification_filter(TextureSampler::Minified);
 
 /// Of an ImageTexture or PixelTexture; the usual one for others. Borders of a colour are those of the picture.
-Sampler read_sampler(const Scene&, NodeId texture);
+TextureSampler read_sampler(const Scene&, NodeId texture);
 
 }  // namespace wrlkit

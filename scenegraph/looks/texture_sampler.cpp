@@ -1,4 +1,4 @@
-#include "scenegraph/looks/sampler.h"
+#include "scenegraph/looks/texture_sampler.h"
 
 #include <algorithm>
 
@@ -8,7 +8,7 @@ namespace wrlkit {
 namespace {
 
 namespace p = nodes::texture_properties;
-using Minified = Sampler::Minified;
+using Minified = TextureSampler::Minified;
 
 Wrap wrap_of(std::string_view mode) {
   if (mode == "MIRRORED_REPEAT") return Wrap::mirror;
@@ -29,7 +29,7 @@ Minified minified_of(std::string_view filter) {
   return at == std::end(filters) ? Minified::linear_mipmap_linear : at->second;
 }
 
-Sampler sampler_of(const Scene& scene, bool repeat_s, bool repeat_t, NodeId properties) {
+TextureSampler sampler_of(const Scene& scene, bool repeat_s, bool repeat_t, NodeId properties) {
   if (!scene.is(properties, nodes::TextureProperties))
     return {.s = repeat_s ? Wrap::repeat : Wrap::clamp, .t = repeat_t ? Wrap::repeat : Wrap::clamp};
   return {.s = wrap_of(scene.get(properties, p::boundaryModeS)),
@@ -44,7 +44,7 @@ std::string_view minification_filter(Minified minified) {
   return std::ranges::find(filters, minified, &std::pair<std::string_view, Minified>::second)->first;
 }
 
-Sampler read_sampler(const Scene& scene, NodeId n) {
+TextureSampler read_sampler(const Scene& scene, NodeId n) {
   namespace i = nodes::image_texture;
   namespace x = nodes::pixel_texture;
   if (scene.is(n, nodes::ImageTexture))
