@@ -130,9 +130,11 @@ std::string fault_text(const std::string& what, const std::vector<std::string>& 
     options.insert(options.end(), o->get_lnames().begin(), o->get_lnames().end());
     options.insert(options.end(), o->get_snames().begin(), o->get_snames().end());
   }
-  const bool lacks_input = app->get_option_no_throw("RECIPE") && what == "IN is required";
-  return option_fault(verb->name, words, options, app->get_option_no_throw("OUT") != nullptr,
-                      lacks_input ? what + "; the recipe, RECIPE, comes before it" : what);
+  const bool has_output = app->get_option_no_throw("OUT") != nullptr;
+  std::string hint;
+  if (app->get_option_no_throw("RECIPE") && what == "IN is required") hint = "; the recipe, RECIPE, comes before it";
+  if (has_output && what.starts_with("more arguments")) hint = "; for many files, see wrlkit corpus run";
+  return option_fault(verb->name, words, options, has_output, what + hint);
 }
 
 /// "corpus run" for "corpus-run".

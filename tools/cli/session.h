@@ -23,7 +23,10 @@ class Session {
   const Flags& flags() const { return flags_; }
   Diagnostics& diag() { return document_.diag(); }
   Document& document() { return document_; }
+  /// After read() has found something.
   Resources& resources() { return *document_.resources(); }
+  /// The files of the scene that was read last, which outputs do not replace; null when nothing was found.
+  const FilesRead* files_read() { return document_.resources() ? &document_.resources()->files_read() : nullptr; }
   PassContext& context() { return document_.context(); }
   Progress& progress() { return progress_; }
 

@@ -94,7 +94,7 @@ void write_pictures(Session& s, const PatchSet& set, const light::LightWorld& wo
     std::string why;
     const auto png = encode_png(as_seen(shape.picture), why);
     if (!png) return s.diag().report(Diag::cannot_write, {}, path, why);
-    auto file = OutputFile::open(path, {.inputs = &s.resources().files_read(), .report_replaced = true}, s.diag());
+    auto file = OutputFile::open(path, {.inputs = s.files_read(), .report_replaced = true}, s.diag());
     if (!file) return;
     file->write(*png);
     if (!file->commit(s.diag())) return;
@@ -123,8 +123,8 @@ int run_illuminate(const Flags& flags) {
       !s.choose_pipeline("lower-vrml1,expand,lower-x3d{materials=true},tessellate{texcoords=true}"))
     return usage;
   if (!s.read(flags.inputs[0])) return s.end(false);
-  auto file = OutputFile::open(
-      flags.output, {.gzip = flags.output.ends_with(".gz"), .inputs = &s.resources().files_read()}, s.diag());
+  auto file =
+      OutputFile::open(flags.output, {.gzip = flags.output.ends_with(".gz"), .inputs = s.files_read()}, s.diag());
   if (!file || !make_folder(s)) return s.end(false);
   const auto meshes = s.pipeline().run_lazily(s.world().scene, s.context(), s.pipeline_options());
   if (!meshes) return s.end(false);

@@ -32,7 +32,7 @@ namespace {
 
 /// `is_derived`: nobody has chosen the name.
 bool write_bytes(Session& s, std::string_view bytes, const std::string& name, bool is_derived = false) {
-  auto file = OutputFile::open(name, {.inputs = &s.resources().files_read(), .report_replaced = is_derived}, s.diag());
+  auto file = OutputFile::open(name, {.inputs = s.files_read(), .report_replaced = is_derived}, s.diag());
   if (!file) return false;
   file->write(bytes);
   return file->commit(s.diag());

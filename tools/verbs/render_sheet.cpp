@@ -62,7 +62,8 @@ int render_sheet(Session& s) {
     }
   }
   s.progress().clear();
-  const bool made = write_picture(s, picture_grid(pictures, columns), f.output);
+  const bool any = std::ranges::find(drawn, true) != drawn.end();
+  const bool made = any && write_picture(s, picture_grid(pictures, columns), f.output);
   const auto contents = contents_json(worlds, drawn);
   s.fact("worlds", contents);
   if (made && f.json) s.print_json(contents);

@@ -94,8 +94,8 @@ bool write_world(Session& s, const std::string& path, const Scene& scene) {
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
   const auto surfaces = progressive_surfaces(s.world().scene, criterion, s.context());
-  auto file = OutputFile::open(
-      path, {.gzip = s.flags().save.gzip, .inputs = &s.resources().files_read(), .report_replaced = true}, s.diag());
+  auto file = OutputFile::open(path, {.gzip = s.flags().save.gzip, .inputs = s.files_read(), .report_replaced = true},
+                               s.diag());
   if (!file) return s.end(false);
   const auto bytes = write_progressive_world(surfaces);
   file->write(bytes);

@@ -186,7 +186,7 @@ std::string contents_json(const ViewerPage& page, const std::string& file, std::
 }
 
 bool write_page(Session& s, const ViewerPage& page) {
-  auto file = OutputFile::open(s.flags().output, {.inputs = &s.resources().files_read()}, s.diag());
+  auto file = OutputFile::open(s.flags().output, {.inputs = s.files_read()}, s.diag());
   if (!file) return false;
   std::size_t n_bytes = 0;
   write_viewer_page(page, [&](std::string_view bytes) {

@@ -20,7 +20,7 @@ cp %S/inputs/box.wrl %t.box.wrl
 cp recipes/plant-web.toml %t.toml
 for words in "convert %t.box.wrl %t.file/o.glb" "optimize %t.box.wrl %t.file/o.glb" "tiles %t.box.wrl -o %t.file/o" \
     "render %t.box.wrl %t.file/o.png" "view %t.box.wrl -o %t.file/o.html" "cat %t.box.wrl -o %t.file/o.wrl" \
-    "simplify %t.box.wrl --ratios 0.5 -o %t.file/o" "compare-lod %t.absent -o %t.lod.html" \
+    "render %t.absent %t.none %t.png" "render %t.text.wrl %t.absent %t.png" "simplify %t.box.wrl --ratios 0.5 -o %t.file/o" "compare-lod %t.absent -o %t.lod.html" \
     "corpus run %t.toml %t.box.wrl -o %t.file/o" "corpus report %t.empty" "corpus plan %t.toml %t.absent -o %t.o"
 do
     wrlkit $words --json 2> %t.null > %t.json
