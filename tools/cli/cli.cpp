@@ -215,14 +215,20 @@ void warn_of_missing_folders(const Flags& flags) {
       std::fprintf(stderr, "wrlkit: --allow-path: there is no folder '%s'\n", folder.c_str());
 }
 
-/// JSON and an output cannot both be standard output. False, which was printed.
-bool can_print_json(const Flags& flags, const Verb& verb) {
+/// Standard output takes one of these: an output, the JSON, the report. False, which was printed.
+bool can_share_standard_output(const Flags& flags, const Verb& verb) {
   const bool prints = *verb.no_json && (flags.output.empty() || flags.output == "-");
-  if (!flags.json || (!prints && flags.output != "-")) return true;
-  std::fprintf(stderr, "wrlkit %s: --json: %s\n", spoken_verb(verb.name).c_str(),
-               prints ? verb.no_json
-                      : "the output itself goes to standard output; name a file for it, or use --report FILE.json");
-  return false;
+  const bool is_output = prints || flags.output == "-";
+  const auto refuse = [&](std::string_view option, std::string_view why) {
+    fmt::print(stderr, "wrlkit {}: {}: {}\n", spoken_verb(verb.name), option, why);
+    return false;
+  };
+  if (flags.report == "-" && (flags.json || is_output))
+    return refuse("--report -", "something else goes to standard output; name a file for the report");
+  if (!flags.json || !is_output) return true;
+  return refuse("--json", prints ? verb.no_json
+                                 : "the output itself goes to standard output; name a file for it, or use --report "
+                                   "FILE.json");
 }
 
 std::vector<std::string> words_of(const GivenOptions& options) {
@@ -335,7 +341,7 @@ int run_command_line(int argc, char** argv) {
     return nothing;
   }
   warn_of_missing_folders(flags);
-  if (!can_print_json(flags, *chosen)) return usage;
+  if (!can_share_standard_output(flags, *chosen)) return usage;
   if (!check_outputs(flags, chosen->endings, chosen->makes)) return usage;
   if (!limit(*chosen, flags)) return usage;
   code = chosen->run(flags);

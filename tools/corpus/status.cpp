@@ -108,7 +108,7 @@ void CorpusStatus::count_errors(const std::string& messages) {
 
 void CorpusStatus::end(const std::string& out) {
   clear();
-  if (!quiet_) fmt::print(stderr, "{}{}", summary(), lacking(out));
+  fmt::print(stderr, "{}{}", quiet_ ? "" : summary(), lacking(out));
 }
 
 std::string CorpusStatus::json() const {

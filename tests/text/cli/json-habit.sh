@@ -31,3 +31,5 @@ done
 set +e
 refused 'cat box.wrl'
 refused 'convert box.wrl -'
+refused 'info box.wrl --report -'
+refused 'convert box.wrl - --report -'
