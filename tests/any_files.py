@@ -21,6 +21,8 @@ SMALL = ['--width', '16', '--height', '16']
 VERBS = {'info': (2, None, []), 'check': (2, None, []), 'diff': (2, None, []), 'convert': (1, '', []), 'optimize': (1, '', []), 'render': (2, '', SMALL),
          'illuminate': (1, '', ['--samples', '1']), 'cat': (1, '-o', []), 'simplify': (1, '-o', ['--ratios', '0.5']), 'compare-lod': (1, '-o', []),
          'tiles': (2, '-o', []), 'view': (2, '-o', []), 'corpus run': (2, '-o', []), 'corpus plan': (2, '-o', []), 'corpus report': (1, '', [])}
+FITTING = {'render': 'out.png', 'view': 'out.html', 'illuminate': 'out.xml', 'compare-lod': 'out.html', 'tiles': 'out', 'simplify': 'out', 'cat': 'out.wrl',
+           'corpus run': 'out', 'corpus plan': 'out'}
 TALKS = ('info', 'check', 'diff')  # about what they read, on standard output
 
 
@@ -32,7 +34,7 @@ def command(chance):
     if place:
         words.append(place)
     if place is not None:
-        words.append(chance.choice(OUTPUTS))
+        words.append(FITTING.get(verb, 'out.glb') if chance.random() < 0.6 else chance.choice(OUTPUTS))
     words += more
     if chance.random() < 0.4:
         words.append('--json')
