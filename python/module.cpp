@@ -72,7 +72,7 @@ std::vector<MessageView> convert_paths(const fs::path& source, const fs::path& t
 
 py::object find_node(const std::shared_ptr<PyWorld>& world, const std::string& name) {
   for (NodeId n : reachable(world->scene(), world->scene().main))
-    if (world->scene().name(n) == name) return py::cast(PyNode{world, n});
+    if (!name.empty() && world->scene().name(n) == name) return py::cast(PyNode{world, n});
   return py::none();
 }
 

@@ -175,6 +175,10 @@ def test_names_that_no_reader_would_take_are_changed_where_they_are_written(tmp_
     assert wrlkit.load(tmp_path / 'out.wrl').find('TK_101__A_') is not None
 
 
+def test_no_name_is_no_name(tmp_path):
+    assert world_of(tmp_path, 'Shape { geometry Box { } }').find('') is None
+
+
 def test_a_group_in_itself_is_not_written(tmp_path):
     world = wrlkit.load(PUMP_ROOM)
     group = world.add('Group')
