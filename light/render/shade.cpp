@@ -52,7 +52,11 @@ std::optional<Texel> texel_of(const Drawing& d, const Surface& s, const Hit& hit
 
 Shader::Shader(const Scene& scene, const Drawing& drawing, const Tracer& tracer, const Camera& camera, const Sky& sky,
                bool headlight)
-    : drawing_(drawing), tracer_(tracer), camera_(camera), sky_(sky) {
+    : drawing_(drawing),
+      tracer_(tracer),
+      camera_(camera),
+      sky_(sky),
+      dashes_(scene, drawing.stage, drawing.meshes, drawing.mesh_of, camera) {
   const Stage& stage = drawing.stage;
   if (headlight) headlight_ = headlight_of(camera);
   if (stage.fog) fog_ = Fog(scene, *stage.fog, stage);
@@ -87,6 +91,7 @@ Texel Shader::shade(const Ray& ray, const Hit& hit) const {
     out = {own->color, own->alpha * s.alpha};
   else
     out = {s.lit ? s.emissive : V3(1), s.alpha};  // IndexedLineSet and PointSet (6.24, 6.36)
+  if (dashes_.is_gap(hit, ray.origin + hit.distance * ray.direction)) out.alpha = 0;
   return {displayed(fog_.dim(displayed(out.color), hit.distance * ray.direction)), displayed(out.alpha)};
 }
 

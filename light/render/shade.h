@@ -7,6 +7,7 @@
 
 #include "light/render/background.h"
 #include "light/render/camera.h"
+#include "light/render/dashes.h"
 #include "light/render/fog.h"
 #include "light/render/light.h"
 #include "light/render/mesh_pool.h"
@@ -62,6 +63,7 @@ class Shader {
   const Camera& camera_;
   const Sky& sky_;
   Fog fog_;
+  Dashes dashes_;
   std::optional<Light> headlight_;
   std::vector<Light> everywhere_;             // PointLights and SpotLights
   std::vector<std::optional<Light>> scoped_;  // by LightScope

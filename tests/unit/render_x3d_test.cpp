@@ -1,4 +1,4 @@
-// What materials of X3D 4.0 have in addition to a colour and a picture of it (ISO/IEC 19775-1:2023, 12.4).
+// What X3D 4.0 has in addition to VRML97: pictures of materials, hatches, dashes (ISO/IEC 19775-1:2023, 12.4).
 #include "tests/unit/render_fixture.h"
 
 using namespace wrlkit;
@@ -94,4 +94,28 @@ TEST_CASE(
   CHECK(rows(open, red) == 60);
   CHECK(rows(open, green) == 180);
   CHECK(rows(drawn("hatched FALSE"), blue) == 240);
+}
+
+TEST_CASE("render: a dash is a twentieth of the height, a gap two thirds of it; a pattern goes on around corners") {
+  Studio s;
+  s.header = "#X3D V4.0 utf8\nPROFILE Full\n";
+  s.options.width = s.options.height = 300;
+  s.options.samples = 1;
+  const auto row = [&](const std::string& type, const std::string& points) {
+    const std::string look =
+        "material Material { emissiveColor 1 0 0 } lineProperties LineProperties { linetype " + type + " }";
+    const Image image =
+        s.render("OrthoViewpoint { fieldOfView [ -1 -1 1 1 ] position 0 0 9 } Shape { appearance Appearance { " + look +
+                 " } geometry LineSet { vertexCount 3 coord Coordinate { point [ " + points + " ] } } }");
+    std::string out;
+    for (int x = 0; x < image.width; ++x) out += pixel(image, x, 150)[0] > 0 || pixel(image, x, 149)[0] > 0 ? '#' : ' ';
+    return out;
+  };
+  const auto drawn = [](const std::string& row) { return std::ranges::count(row, '#'); };
+  const std::string plain = row("1", "-2 0 0, 0 0 0, 2 0 0"), dashed = row("2", "-2 0 0, 0 0 0, 2 0 0");
+  CHECK(drawn(plain) == 300);
+  CHECK(drawn(dashed) == Approx(180).margin(8));
+  CHECK(drawn(row("3", "-2 0 0, 0 0 0, 2 0 0")) == Approx(100).margin(12));
+  CHECK(row("2", "-2 0 0, 0.033 0 0, 2 0 0") == dashed);
+  CHECK(row("9", "-2 0 0, 0 0 0, 2 0 0") == plain);
 }
