@@ -170,6 +170,17 @@ async function sounds() {
   await close();
 }
 
+/// A world that only sounds is drawn again when they are there, and is as loud as that picture says.
+async function only_a_sound() {
+  const text = `#X3D V3.3 utf8\nPROFILE Immersive\nViewpoint { position 0 0 10 }\n${box('r')} Sound { maxFront 99 maxBack 99 source AudioClip { url "hum.wav" loop TRUE } }\n`;
+  const {page, faults, close} = await open_world('only_a_sound', text);
+  await page.getByLabel('Run the world').check();
+  await page.getByLabel('Play its sounds').check();
+  await page.waitForFunction(() => window.viewer.mode.behaviour.sounds.playing[0]?.gain > 0.5, undefined, {timeout: 30_000});
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 /// Off again, the world is as it was; a link runs nothing.
 async function off_and_on() {
   const {page, faults, close} = await open_world('off_and_on', worlds.find(w => w.name === 'switch').world, '#panel=view&run=1');
@@ -329,6 +340,7 @@ try {
   await anchors();
   await billboard_and_list();
   await sounds();
+  await only_a_sound();
   await off_and_on();
   console.log(`${worlds.length} worlds`);
 } finally {

@@ -107,7 +107,7 @@ class Viewer {
   void take_sounds(Scene& scene) {
     constexpr std::size_t largest = 4 << 20;
     for (const NodeId n : all_nodes(scene)) {
-      if (!scene.is(n, nodes::AudioClip)) continue;
+      if (!scene.is(n, nodes::AudioClip) || scene.value(n, nodes::audio_clip::url.slot).is) continue;
       const auto file = file_of(scene, n, scene.get(n, nodes::audio_clip::url));
       const auto type = file ? sound_type(file->bytes) : "";
       if (type.empty()) continue;

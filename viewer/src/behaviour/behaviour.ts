@@ -67,10 +67,16 @@ export class Behaviour {
     this.host?.restore();
     this.runScripts(false);
     this.sounds?.dispose();
-    this.sounds = on ? new Sounds(this.audible, node => this.world.parts.find(p => p.node === node)?.object ?? null, () => this.page.failed()) : null;
+    this.sounds = on ? new Sounds(this.audible, node => this.world.parts.find(p => p.node === node)?.object ?? null, () => this.heard()) : null;
     this.run = this.host = null;
     if (on && this.graph) this.guard(() => this.begin(this.graph!));
     if (!on) this.billboards.rest();
+    this.page.changed();
+  }
+
+  /// A sound can be heard, which is as loud as the next picture says, or cannot.
+  private heard(): void {
+    this.page.failed();
     this.page.changed();
   }
 

@@ -129,7 +129,7 @@ export class Sounds {
   private context: AudioContext | null = null;
   private readonly all: Playing[];
 
-  /// `changed`: there is another fault.
+  /// `changed`: another one can be heard, or cannot.
   constructor(found: readonly Found[], objectOf: (node: number) => Object3D | null, private readonly changed: () => void) {
     this.all = found.map(sound => new Playing(sound, objectOf(sound.node)));
   }
@@ -143,9 +143,9 @@ export class Sounds {
     const context = this.context = new AudioContext();
     for (const sound of this.all)
       sound.hear(context).catch(() => {
-        if (this.context !== context) return;
-        this.faults.push(`${sound.found.name}: the browser cannot decode it`);
-        this.changed();
+        if (this.context === context) this.faults.push(`${sound.found.name}: the browser cannot decode it`);
+      }).finally(() => {
+        if (this.context === context) this.changed();
       });
   }
 
