@@ -1,5 +1,6 @@
 #include "light/render/hatch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenegraph/nodes.h"
@@ -33,8 +34,8 @@ std::optional<Hatch> read_hatch(const Scene& scene, NodeId n) {
   if (!scene.is(n, nodes::FillProperties)) return std::nullopt;
   const auto color = scene.get(n, f::hatchColor);
   Hatch hatch{scene.get(n, f::filled), {color[0], color[1], color[2]}, 0};
-  if (scene.get(n, f::hatched)) hatch.style = scene.get(n, f::hatchStyle);
-  return hatch.is_filled && hatch.style <= 0 ? std::nullopt : std::optional(hatch);
+  if (scene.get(n, f::hatched)) hatch.style = std::max(0, scene.get(n, f::hatchStyle));
+  return hatch.is_filled && hatch.style == 0 ? std::nullopt : std::optional(hatch);
 }
 
 }  // namespace wrlkit::drawing
