@@ -103,7 +103,7 @@ class Making {
   Staging staging_;
   KeptTiles kept_;
   std::mutex keeping_;  // kept_
-  InputPieces input_{reader_, options_.triangles, folder_};
+  InputPieces input_{reader_, options_.triangles, options_.passes, folder_};
   Cells cells_;
   std::vector<Tile> made_;  // by cell
   Plan plan_{cells_, made_, options_};

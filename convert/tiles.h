@@ -19,7 +19,8 @@ struct TilesOptions {
   std::size_t tiles_in_file = 500;  // that tileset.json describes; more are described in files next to the tiles
   std::size_t at_once = 1'500'000;  // triangles that are simplified together; decides about bytes (triangles_within)
   SaveOptions save = {.compress = GltfCompression::Method::meshopt};  // how the content is stored
-  std::optional<EarthPlace> place = {};                               // none: in coordinates of its own
+  std::string passes = {};               // that each file goes through first, as -p has them
+  std::optional<EarthPlace> place = {};  // none: in coordinates of its own
   /// Which program this is: tiles are taken as they are only from runs of the same one. Empty: from none.
   std::string program = {};
   /// One of several processes that make a set together, in one folder, from the same files with the same options.

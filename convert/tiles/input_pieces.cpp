@@ -38,7 +38,7 @@ bool InputPieces::take(const TilesInput& input, SceneCounts& counts, TilesMade& 
   };
   bool is_read = false, is_too_large = false;
   try {
-    is_read = read_scene(input.path) && pieces_of(reader_, input.name, most_, looks_, put, mine);
+    is_read = read_scene(input.path) && pieces_of(reader_, {input.name, most_, passes_}, looks_, put, mine);
   } catch (const std::bad_alloc&) {
     reader_.context().diag.report(Diag::cannot_read, {}, input.path, "it needs more memory than there is");
     entries_.resize(n_before);

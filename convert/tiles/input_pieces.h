@@ -16,9 +16,10 @@ namespace wrlkit::tiles {
 
 class InputPieces {
  public:
-  /// `most`: triangles of a piece. Files are read through `reader`, whose messages are then those of all of them; a
-  /// full disk is reported as that of `set`.
-  InputPieces(Document& reader, std::size_t most, const std::string& set) : reader_(reader), most_(most), set_(set) {}
+  /// `most`: triangles of a piece. `passes`: that files go through first, as -p has them. Files are read through
+  /// `reader`, whose messages are then those of all of them; a full disk is reported as that of `set`.
+  InputPieces(Document& reader, std::size_t most, const std::string& passes, const std::string& set)
+      : reader_(reader), most_(most), passes_(passes), set_(set) {}
 
   /// Makes the file on disk, in a folder. False, which is reported, when it cannot be made.
   bool open(const std::string& folder);
@@ -40,7 +41,7 @@ class InputPieces {
 
   Document& reader_;
   std::size_t most_;
-  const std::string& set_;
+  const std::string &passes_, &set_;
   Looks looks_;
   std::optional<PieceStore> store_;
   std::vector<PieceStore::Entry> entries_;

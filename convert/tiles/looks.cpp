@@ -9,8 +9,9 @@
 namespace wrlkit::tiles {
 namespace {
 
-/// What of a node belongs to its look.
+/// What of a node belongs to its look. A TextureTransform does not: texture coordinates are as it makes them.
 bool counts(const Scene& scene, NodeId n, const Value& v) {
+  if (scene.is(n, nodes::Appearance) && v.slot == nodes::appearance::textureTransform.slot) return false;
   return !v.is && !scene.is_extra(v) && scene.type(n).fields[v.slot].name != "metadata";
 }
 
@@ -41,7 +42,7 @@ class Taking {
   const std::vector<std::string>& pictures() const { return pictures_; }
 
   std::uint64_t picture_bytes() const {
-    std::uint64_t sum = 0;
+    std::uint64_t sum = inside_bytes_;
     std::error_code fault;
     for (const auto& path : pictures_)
       if (const auto size = std::filesystem::file_size(path, fault); !fault) sum += size;
@@ -116,6 +117,7 @@ class Taking {
     for (const auto text : v.text_span()) {
       const auto target = is_url ? resources_->target(text, from_.where(n), *from_.sources) : UrlTarget{};
       if (target.kind == UrlTarget::Kind::file) pictures_.push_back(target.path);
+      if (is_url && text.starts_with("data:")) inside_bytes_ += text.size() * 3 / 4;  // base64
       out.push_back(target.kind == UrlTarget::Kind::file ? target.path : std::string(text));
     }
     return out;
@@ -144,6 +146,7 @@ class Taking {
   std::string key_;
   NodeId coloured_{};  // the Material whose colour does not count
   std::vector<std::string> pictures_;
+  std::uint64_t inside_bytes_ = 0;  // of pictures that are in their urls
 };
 
 }  // namespace

@@ -15,8 +15,8 @@ namespace wrlkit::tiles {
 class Looks {
  public:
   /// Number of the look of an Appearance, which may be none. Equal ones have one number, whatever world they are from
-  /// and whatever their names. Urls of pictures become absolute paths; those that may not be read or are not there are
-  /// reported, and left out. Linear in what is below the Appearance.
+  /// and whatever their names and TextureTransforms. Urls of pictures become absolute paths; those that may not be read
+  /// or are not there are reported, and left out. Linear in what is below the Appearance.
   std::uint32_t add(const Scene& scene, NodeId appearance, const Task& ctx, Resources* resources);
 
   std::size_t size() const { return appearances_.size(); }

@@ -6,7 +6,7 @@ namespace wrlkit::tiles {
 
 std::string option_key(TilesOptions options) {
   std::string out = options.program + '\n' + std::to_string(options.triangles) + ' ' + std::to_string(options.at_once) +
-                    ' ' + std::to_string(options.draws) + ' ' + std::to_string(options.bytes);
+                    ' ' + std::to_string(options.draws) + ' ' + std::to_string(options.bytes) + '\n' + options.passes;
   const auto add = [&](std::string_view name, const auto& value, const auto&...) {
     using Value = std::decay_t<decltype(value)>;
     out += '\n' + std::string(name) + ' ';

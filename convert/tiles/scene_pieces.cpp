@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/stop.h"
+#include "base/text/base64.h"
 #include "geometry/closest_point.h"
 #include "geometry/geometry.h"
 #include "geometry/moved.h"
@@ -11,6 +12,7 @@
 #include "geometry/tessellation.h"
 #include "passes/normals/normals.h"
 #include "passes/pipeline/pipeline.h"
+#include "scenegraph/looks/texture_transform_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/named_places.h"
 #include "scenegraph/places/ways.h"
@@ -79,7 +81,22 @@ class ScenePieces {
     if (mesh_.is_triangles()) piece_.mesh.face_begin.clear();
     piece_.mesh.crease_angle = mesh_.crease_angle;
     piece_.mesh.primitive = mesh_.primitive;
-    piece_.look = look(scene_.get(place.shape, nodes::shape::appearance));
+    const NodeId appearance = scene_.get(place.shape, nodes::shape::appearance);
+    place_picture(piece_.mesh.texcoord, appearance);
+    piece_.look = look(appearance);
+  }
+
+  /// Parts that differ in their TextureTransforms alone are one draw then.
+  void place_picture(Attribute& texcoord, NodeId appearance) const {
+    if (!appearance || !texcoord.present()) return;
+    const NodeId transform = scene_.get(appearance, nodes::appearance::textureTransform);
+    if (!transform) return;
+    const TexcoordMap map = read_texture_transform(scene_, transform).map();
+    for (std::size_t i = 0; i + 1 < texcoord.values.size(); i += 2) {
+      const Vec2 at = map(texcoord.values[i], texcoord.values[i + 1]);
+      texcoord.values[i] = static_cast<float>(at[0]);
+      texcoord.values[i + 1] = static_cast<float>(at[1]);
+    }
   }
 
   std::uint32_t look(NodeId appearance) {
@@ -148,15 +165,41 @@ void count_lost(const Scene& scene, SceneCounts& counts) {
     if (is_lost(scene, NodeId{i})) ++counts.lost[std::string(scene.type(NodeId{i}).name)];
 }
 
+/// Pictures that a pass has made become part of the texture: tiles are written when the scene is gone.
+void keep_made_pictures(Scene& scene, PassContext& ctx) {
+  namespace f = nodes::image_texture;
+  if (!ctx.resources || ctx.resources->made().empty()) return;
+  for (std::uint32_t i = 0; i < scene.node_count(); ++i) {
+    const NodeId n{i};
+    if (!scene.is(n, nodes::ImageTexture)) continue;
+    const auto urls = scene.get(n, f::url);
+    if (urls.empty() || !urls[0].starts_with(made_scheme)) continue;
+    const auto picture = ctx.resources->bytes(urls.first(1), scene.where(n), ctx.diag);
+    if (!picture) continue;
+    const std::string url = "data:" + std::string(picture->mime) + ";base64," + base64(picture->bytes);
+    scene.set(n, f::url, std::vector<std::string_view>{url});
+  }
+}
+
+/// The passes that the user wants, and those that pieces need: light is part of the pictures.
+bool expand(Document& document, std::string_view passes) {
+  constexpr std::string_view needed = "lower-vrml1,expand,lower-x3d,combine-lightmap";
+  std::string why;
+  auto pipeline = Pipeline::parse(passes.empty() ? needed : passes, why);
+  if (!pipeline) return false;
+  if (!passes.empty()) pipeline->complete(needed);
+  if (!pipeline->run(document.scene(), document.context())) return false;
+  keep_made_pictures(document.scene(), document.context());
+  return true;
+}
+
 }  // namespace
 
-bool pieces_of(Document& document, const std::string& source, std::size_t most, Looks& looks,
+bool pieces_of(Document& document, const PiecesWanted& wanted, Looks& looks,
                const std::function<bool(const Piece&)>& put, SceneCounts& counts) {
-  std::string why;
-  auto expanded = Pipeline::parse("lower-vrml1,expand,lower-x3d", why);
-  if (!expanded->run(document.scene(), document.context())) return false;
+  if (!expand(document, wanted.passes)) return false;
   count_lost(document.scene(), counts);
-  return ScenePieces(document, source, most, looks, put, counts).run();
+  return ScenePieces(document, wanted.source, wanted.most, looks, put, counts).run();
 }
 
 }  // namespace wrlkit::tiles

@@ -15,10 +15,16 @@ struct SceneCounts {
   std::map<std::string, std::size_t> lost = {};  // by the type of the node, and ROUTEs: what tiles have no place for
 };
 
+struct PiecesWanted {
+  const std::string& source;     // what the file is called
+  std::size_t most;              // triangles of a piece
+  std::string_view passes = {};  // that the document goes through first, as -p has them
+};
+
 /// Expands the document, and hands out what each Shape shows in each place, in the order of the file. What has more
-/// than `most` triangles comes in several pieces, cut in space. `source` is what the file is called. False when the
-/// world could not be expanded or `put` has had enough. Memory: one mesh next to the document.
-bool pieces_of(Document& document, const std::string& source, std::size_t most, Looks& looks,
+/// triangles than are wanted comes in several pieces, cut in space. False when the world could not be expanded or
+/// `put` has had enough. Memory: one mesh next to the document.
+bool pieces_of(Document& document, const PiecesWanted& wanted, Looks& looks,
                const std::function<bool(const Piece&)>& put, SceneCounts& counts);
 
 }  // namespace wrlkit::tiles

@@ -18,14 +18,14 @@ const faults = [];
 /// So that the world fills the picture.
 const nearer = c => ({...c, eye: c.eye.map((v, i) => c.target[i] + 0.5 * (v - c.target[i]))});
 
-async function job_of(world, draws, i) {
+async function job_of(world, draws, i, passes = []) {
   const set = path.join(folder, `set${i}`), glb = path.join(folder, `${i}.glb`);
-  for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles, '--tile-draws', draws, '--tileset-tiles', '8'], ['convert', '-q', world, glb]]) {
+  for (const args of [['tiles', '-q', world, '-o', set, '--triangles', triangles, '--tile-draws', draws, '--tileset-tiles', '8', ...passes], ['convert', '-q', world, glb, ...passes]]) {
     const made = await run(wrlkit, args, 120);
     if (made.code !== 0) faults.push(`${world}: ${args[0]} ends with ${made.code}: ${made.text}`);
   }
   const camera = nearer(view_of(wrlkit, world, glb, false).camera);
-  return {name: `${world}, ${draws} draws`, draws, tileset: `/out/set${i}/tileset.json`, glb: `/out/${i}.glb`, pixels: bounds.map(b => b.pixels), width: 640, height: 480, camera, key};
+  return {name: `${world}, ${draws} draws${passes.length > 0 ? ', lit' : ''}`, draws, tileset: `/out/set${i}/tileset.json`, glb: `/out/${i}.glb`, pixels: bounds.map(b => b.pixels), width: 640, height: 480, camera, key};
 }
 
 function judge({name, levels, sheet, error}, i) {
@@ -50,6 +50,8 @@ fs.mkdirSync(folder, {recursive: true});
 const jobs = [];
 for (const world of worlds)
   for (const draws of [few, many]) jobs.push(await job_of(world, draws, jobs.length));
+// Baked light: all parts have places of their own on a page or two, and are one draw for each.
+jobs.push(await job_of(worlds[0], few, jobs.length, ['-p', 'lightmap{quality=draft}']));
 let n = 0;
 await take_pictures(folder, jobs, result => judge(result, n++), 200);
 console.log(faults.join('\n'));

@@ -271,6 +271,12 @@ void globs(CLI::App& verb, Flags& f) {
 
 void tiles(CLI::App& verb, Flags& f) {
   verb.add_option(
+          "-p,--pipeline", f.pipeline,
+          "passes that each file goes through before it is cut, by itself: lightmap bakes its light; see wrlkit "
+          "passes")
+      ->type_name("PASSES");
+  python(verb, f);
+  verb.add_option(
           "--shard", f.shard,
           "share of one of several processes that make a set together in one folder: 2/8 is the second of eight; "
           "auto, auto/8: from the environment of Slurm or Kubernetes; the last process writes tileset.json")

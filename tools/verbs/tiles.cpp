@@ -53,6 +53,7 @@ TilesOptions options_of(const Flags& flags, Shard shard) {
                    .shard = shard.index,
                    .shards = shard.count};
   out.update = flags.update;
+  out.passes = flags.pipeline;
   if (!flags.memory.empty()) out.at_once = triangles_within(size_of(flags.memory));
   out.tiles_in_file = static_cast<std::size_t>(flags.tileset_tiles);
   if (!flags.is_given("compress")) out.save.compress = GltfCompression::Method::meshopt;
@@ -139,6 +140,14 @@ std::string json_of(const TilesMade& made) {
   return out;
 }
 
+/// False, which was printed, when -p is not a pipeline.
+bool check_passes(const Flags& flags) {
+  std::string why;
+  if (flags.pipeline.empty() || Pipeline::parse(flags.pipeline, why)) return true;
+  fmt::print(stderr, "wrlkit: -p: {}\n", why);
+  return false;
+}
+
 /// False, which was printed, when it is not a place on the Earth.
 bool check_place(const std::vector<double>& at) {
   if (!at.empty() && at.size() != 3 && at.size() != 4) {
@@ -154,7 +163,7 @@ bool check_place(const std::vector<double>& at) {
 
 int run_tiles(const Flags& flags) {
   Session s(flags);
-  if (!s.good() || !check_place(flags.at)) return usage;
+  if (!s.good() || !check_passes(flags) || !check_place(flags.at)) return usage;
   const auto shard = shard_of(flags);
   if (!shard) return usage;
   int code = done;
