@@ -7,6 +7,7 @@ import {bundle_babylon, has_babylon} from './babylon.mjs';
 import {has_chromium, take_pictures} from './browser.mjs';
 import {ahead, run} from './program.mjs';
 import {view_of} from './view.mjs';
+import {open_page, start_chromium} from './viewer_page.mjs';
 import {file_of} from './worlds.mjs';
 
 const [wrlkit, folder, world = file_of('corpus/paper/stairs_room.wrl')] = process.argv.slice(2);
@@ -38,6 +39,43 @@ function job_of({way, camera}, viewer, reference) {
   return {name: `${viewer}|${way}`, ...words, glb: `/out/${way}.glb`, camera, ...size, background: key, key, reference: words.lighting ? [{label: 'wrlkit render', url}] : url};
 }
 
+/// In the page of `wrlkit view`: the mean difference, from 0 to 1, of what it shows from there and a picture.
+async function seen({camera, size, key, reference}) {
+  const {mode} = window.viewer, {renderer, camera: eye} = mode.stage;
+  mode.stage.invalidate = () => undefined;
+  renderer.setPixelRatio(1);
+  renderer.setSize(size.width, size.height, false);
+  renderer.setClearColor(key.reduce((all, v) => 256 * all + Math.round(255 * v), 0), 1);
+  Object.assign(eye, {aspect: size.width / size.height, fov: 45, near: 0.05, far: 1000});
+  eye.position.fromArray(camera.eye);
+  eye.up.fromArray(camera.up);
+  eye.lookAt(...camera.target);
+  eye.updateProjectionMatrix();
+  eye.updateMatrixWorld();
+  mode.draw({renderer, camera: eye, height: size.height});
+  const picture = new Image();
+  picture.src = reference;
+  await picture.decode();
+  const [own, other] = [mode.stage.canvas, picture].map(source => {
+    const pen = Object.assign(document.createElement('canvas'), size).getContext('2d');
+    pen.drawImage(source, 0, 0);
+    return pen.getImageData(0, 0, size.width, size.height).data;
+  });
+  let sum = 0;
+  for (let i = 0; i < own.length; ++i) if (i % 4 < 3) sum += Math.abs(own[i] - other[i]);
+  return {difference: sum / (255 * 3 * size.width * size.height), picture: mode.stage.canvas.toDataURL()};
+}
+
+async function in_the_page(browser, {way, camera}) {
+  const html = out(`${way}.html`), reference = `data:image/png;base64,${fs.readFileSync(out('base-color.png')).toString('base64')}`;
+  await must(['view', '-q', out(`${way}.glb`), '-o', html, '--criteria', 'quadric']);
+  const {page, close} = await open_page(browser, html);
+  const {difference, picture} = await page.evaluate(seen, {camera, size, key, reference});
+  fs.writeFileSync(out(`wrlkit_view_${way}.png`), Buffer.from(picture.split(',')[1], 'base64'));
+  await close();
+  return levels(difference);
+}
+
 const levels = difference => (255 * difference).toFixed(1);
 
 async function main() {
@@ -53,8 +91,11 @@ async function main() {
     cells.set(name, error ? `failed: ${error.slice(0, 60)}` : levels(difference));
     if (sheet) fs.writeFileSync(out(`${name.replace(/\W+/g, '_')}.png`), Buffer.from(sheet.split(',')[1], 'base64'));
   }, 300);
+  const browser = await start_chromium();
+  for (const file of made) cells.set(`\`wrlkit view\`|${file.way}`, await in_the_page(browser, file));
+  await browser.close();
   console.log(`| | ${ways.join(' | ')} |\n|${'---|'.repeat(ways.length + 1)}`);
-  for (const viewer of Object.keys(viewers)) console.log(`| ${viewer} | ${ways.map(way => cells.get(`${viewer}|${way}`)).join(' | ')} |`);
+  for (const viewer of ['`wrlkit view`', ...Object.keys(viewers)]) console.log(`| ${viewer} | ${ways.map(way => cells.get(`${viewer}|${way}`)).join(' | ')} |`);
   return 0;
 }
 
