@@ -377,22 +377,28 @@ NodeId Materials::pixel_texture(Json t, Json image) {
 }
 
 /// Those that wrlkit has kept, then where the picture is now.
+/// That of the picture in or next to the file, then those that it had in VRML: what lies there may be another one.
 std::vector<std::string> Materials::urls(Json t, std::uint32_t index) {
   std::vector<std::string> all;
-  for (Json url : vrml97(t)["ImageTexture"]["url"].elements()) all.emplace_back(url.text());
   const Json image = c_.file.at(Table::images, index);
-  if (auto uri = image["uri"].text(); !uri.empty()) {
+  if (const auto uri = image["uri"].text(); !uri.empty())
     all.emplace_back(uri);
-    return all;
-  }
+  else if (auto inside = picture_url(index, image); !inside.empty())
+    all.push_back(std::move(inside));
+  for (Json url : vrml97(t)["ImageTexture"]["url"].elements())
+    if (std::ranges::find(all, url.text()) == all.end()) all.emplace_back(url.text());
+  return all;
+}
+
+/// Of a picture in the file, which is decoded once; empty: there is none.
+std::string Materials::picture_url(std::uint32_t index, Json image) {
   auto& url = image_urls_[index];
-  auto view = url.empty() ? c_.file.index(Table::bufferViews, image["bufferView"]) : none;
-  if (auto bytes = view == none ? std::nullopt : c_.buffers.view(view)) {
-    auto mime = sniff_mime(bytes->bytes);
+  const auto view = url.empty() ? c_.file.index(Table::bufferViews, image["bufferView"]) : none;
+  if (const auto bytes = view == none ? std::nullopt : c_.buffers.view(view)) {
+    const auto mime = sniff_mime(bytes->bytes);
     url = "data:" + std::string(mime.empty() ? image["mimeType"].text() : mime) + ";base64," + base64(bytes->bytes);
   }
-  if (!url.empty()) all.push_back(url);
-  return all;
+  return url;
 }
 
 NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {

@@ -64,6 +64,7 @@ class Materials {
   std::optional<Image> decoded(Json image);
   NodeId light_of_linear(std::uint32_t texture);
   std::vector<std::string> urls(Json texture, std::uint32_t image);
+  std::string picture_url(std::uint32_t index, Json image);
   NodeId texture_transform(Json info, SurfaceKind, Look&);
   NodeId transform_node(const TexcoordMap&, Json said);
   void set_light(NodeId appearance, Json material);

@@ -152,9 +152,9 @@ class Comparison {
       close = v.type == FieldType::SFRotation ? same_rotation(v.number_span(), w.number_span())
                                               : near_numbers(v.number_span(), w.number_span());
     if (!close && name.ends_with(".direction")) close = near_numbers(unit(v.number_span()), unit(w.number_span()));
-    // Behind the urls stands where the picture is now.
+    // In front of the urls stands where the picture is now: what lies where they lead may be another one.
     if (!close && name.ends_with("Texture.url"))
-      close = w.count > v.count && std::ranges::equal(v.text_span(), w.text_span().first(v.count));
+      close = w.count > v.count && std::ranges::equal(v.text_span(), w.text_span().last(v.count));
     if (close) {
       ++tally_["fields"].near;
       return;
