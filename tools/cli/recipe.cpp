@@ -259,6 +259,11 @@ std::string names_behind(const std::vector<std::string>& warnings, std::string_v
 }
 
 std::optional<Recipe> read(const std::string& path, bool with_passes, std::string& why) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    why = fmt::format("wrlkit: '{}' is a folder; the recipe, a file .toml, comes first, then the inputs\n", path);
+    return std::nullopt;
+  }
   const auto text = read_bytes(path, most_bytes, why);
   if (!text) {
     why = fmt::format("wrlkit: {}: {}\n", path, why);
