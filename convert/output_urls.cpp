@@ -1,6 +1,6 @@
 #include "convert/output_urls.h"
 
-#include "base/text/base64.h"
+#include "base/io/url.h"
 
 namespace wrlkit {
 namespace {
@@ -36,7 +36,7 @@ std::optional<std::string> OutputUrls::data_of(std::string_view url, Span where)
   if (resources.target(url, where, *writing_.scene.sources).kind != UrlTarget::Kind::file) return std::nullopt;
   const auto picture = resources.bytes({&url, 1}, where, writing_.context.diag);
   if (!picture || picture->mime.empty()) return std::nullopt;
-  return "data:" + std::string(picture->mime) + ";base64," + base64(picture->bytes);
+  return data_url(picture->mime, picture->bytes);
 }
 
 }  // namespace wrlkit

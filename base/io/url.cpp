@@ -94,4 +94,8 @@ std::optional<std::string> decode_data_url(std::string_view url) {
   return about.ends_with(";base64") ? base64_decode(decoded) : decoded;
 }
 
+std::string data_url(std::string_view media_type, std::string_view bytes) {
+  return "data:" + std::string(media_type) + ";base64," + base64(bytes);
+}
+
 }  // namespace wrlkit

@@ -20,5 +20,7 @@ std::vector<std::string> url_paths(std::string_view url);
 bool has_drive(std::string_view path);
 
 std::optional<std::string> decode_data_url(std::string_view url);
+/// The url that is those bytes, in base64.
+std::string data_url(std::string_view media_type, std::string_view bytes);
 
 }  // namespace wrlkit

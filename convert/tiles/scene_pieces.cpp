@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/io/url.h"
 #include "base/stop.h"
-#include "base/text/base64.h"
 #include "geometry/closest_point.h"
 #include "geometry/geometry.h"
 #include "geometry/moved.h"
@@ -176,7 +176,7 @@ void keep_made_pictures(Scene& scene, PassContext& ctx) {
     if (urls.empty() || !urls[0].starts_with(made_scheme)) continue;
     const auto picture = ctx.resources->bytes(urls.first(1), scene.where(n), ctx.diag);
     if (!picture) continue;
-    const std::string url = "data:" + std::string(picture->mime) + ";base64," + base64(picture->bytes);
+    const std::string url = data_url(picture->mime, picture->bytes);
     scene.set(n, f::url, std::vector<std::string_view>{url});
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "light/render/widths.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::drawing {
@@ -27,17 +28,15 @@ std::span<const double> pattern_of(int type) {
 }
 
 int line_type(const Scene& scene, NodeId appearance) {
-  namespace f = nodes::line_properties;
-  if (!scene.is(appearance, nodes::Appearance)) return 1;
-  const NodeId n = scene.get(appearance, nodes::appearance::lineProperties);
-  return scene.is(n, nodes::LineProperties) && scene.get(n, f::applied) ? scene.get(n, f::linetype) : 1;
+  const NodeId n = line_properties(scene, appearance);
+  return n ? scene.get(n, nodes::line_properties::linetype) : 1;
 }
 
 }  // namespace
 
 Dashes::Dashes(const Scene& scene, const Stage& stage, const MeshPool& meshes, std::span<const std::uint32_t> mesh_of,
                const Camera& camera)
-    : stage_(&stage), meshes_(&meshes), mesh_of_(mesh_of), camera_(camera) {
+    : stage_(stage), meshes_(meshes), mesh_of_(mesh_of), camera_(camera) {
   for (std::uint32_t use = 0; use < mesh_of.size(); ++use) {
     if (meshes[mesh_of[use]].kind != Mesh::Kind::lines) continue;
     const int type = line_type(scene, stage.uses[use].appearance);
@@ -48,8 +47,8 @@ Dashes::Dashes(const Scene& scene, const Stage& stage, const MeshPool& meshes, s
 }
 
 V3 Dashes::end_of(std::uint32_t use, std::size_t segment, int end) const {
-  const PooledMesh& m = (*meshes_)[mesh_of_[use]];
-  return stage_->frames[stage_->uses[use].frame].point(m.origin + meshes_->position(m, segment, end));
+  const PooledMesh& m = meshes_[mesh_of_[use]];
+  return stage_.frames[stage_.uses[use].frame].point(m.origin + meshes_.position(m, segment, end));
 }
 
 /// 0 where an end is behind the camera.
@@ -60,7 +59,7 @@ double Dashes::pixels_between(const V3& a, const V3& b) const {
 }
 
 std::vector<float> Dashes::starts(std::uint32_t use) const {
-  std::vector<float> out((*meshes_)[mesh_of_[use]].n_elements, 0);
+  std::vector<float> out(meshes_[mesh_of_[use]].n_elements, 0);
   for (std::size_t i = 1; i < out.size(); ++i) {
     const V3 from = end_of(use, i - 1, 0), to = end_of(use, i - 1, 1), apart = end_of(use, i, 0) - to;
     if (dot(apart, apart) == 0) out[i] = out[i - 1] + static_cast<float>(pixels_between(from, to));

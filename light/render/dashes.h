@@ -13,8 +13,7 @@ namespace wrlkit::drawing {
 /// others are plain. A dash is a twentieth of the picture's height long, and a pattern goes on around corners.
 class Dashes {
  public:
-  Dashes() = default;
-  /// O(uses), and O(segments) of lines that are broken.
+  /// Refers to all of them but the scene. O(uses), and O(segments) of lines that are broken.
   Dashes(const Scene&, const Stage&, const MeshPool&, std::span<const std::uint32_t> mesh_of, const Camera&);
 
   /// Whether a line that a ray meets at `position`, in the world, has a gap there.
@@ -29,10 +28,10 @@ class Dashes {
   double pixels_between(const V3& a, const V3& b) const;
   std::vector<float> starts(std::uint32_t use) const;
 
-  const Stage* stage_ = nullptr;
-  const MeshPool* meshes_ = nullptr;
+  const Stage& stage_;
+  const MeshPool& meshes_;
   std::span<const std::uint32_t> mesh_of_;
-  Camera camera_;
+  const Camera& camera_;
   std::vector<Line> lines_;  // by use; empty: none is broken
 };
 

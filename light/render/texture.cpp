@@ -6,15 +6,6 @@
 namespace wrlkit::drawing {
 namespace {
 
-/// Into [0, n): going round, back and forth, or stopping at the border.
-int wrapped(std::int64_t i, int n, Wrap wrap) {
-  if (wrap == Wrap::clamp) return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1));
-  const std::int64_t period = wrap == Wrap::mirror ? 2 * std::int64_t{n} : n;
-  std::int64_t r = i % period;
-  if (r < 0) r += period;
-  return static_cast<int>(r < n ? r : period - 1 - r);
-}
-
 /// Of coordinates far outside only the place within the period matters; NaN counts as 0.
 double reduced(double v, Wrap wrap) {
   if (!std::isfinite(v)) return 0;

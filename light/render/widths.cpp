@@ -10,10 +10,8 @@ namespace {
 constexpr double widest = 256;  // so that a stroke covers no more than a picture
 
 double line_width(const Scene& scene, NodeId appearance) {
-  namespace f = nodes::line_properties;
-  const NodeId n = scene.get(appearance, nodes::appearance::lineProperties);
-  if (!scene.is(n, nodes::LineProperties) || !scene.get(n, f::applied)) return 1;
-  return std::clamp(scene.get(n, f::linewidthScaleFactor), 1.0, widest);
+  const NodeId n = line_properties(scene, appearance);
+  return n ? std::clamp(scene.get(n, nodes::line_properties::linewidthScaleFactor), 1.0, widest) : 1;
 }
 
 double point_size(const Scene& scene, NodeId appearance) {
@@ -26,6 +24,13 @@ double point_size(const Scene& scene, NodeId appearance) {
 }
 
 }  // namespace
+
+NodeId line_properties(const Scene& scene, NodeId appearance) {
+  namespace f = nodes::line_properties;
+  if (!scene.is(appearance, nodes::Appearance)) return {};
+  const NodeId n = scene.get(appearance, nodes::appearance::lineProperties);
+  return scene.is(n, nodes::LineProperties) && scene.get(n, f::applied) ? n : NodeId{};
+}
 
 std::vector<float> widths_of(const Scene& scene, const Stage& stage, const MeshPool& meshes,
                              std::span<const std::uint32_t> mesh_of) {

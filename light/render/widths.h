@@ -7,6 +7,9 @@
 
 namespace wrlkit::drawing {
 
+/// The LineProperties of an Appearance, where they apply; none: lines are plain.
+NodeId line_properties(const Scene&, NodeId appearance);
+
 /// By use: factors for the width of plain lines and points, by LineProperties and PointProperties (without
 /// attenuation); empty where all are plain. O(uses).
 std::vector<float> widths_of(const Scene&, const Stage&, const MeshPool&, std::span<const std::uint32_t> mesh_of);

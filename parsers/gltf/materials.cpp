@@ -6,7 +6,6 @@
 #include "base/image/image.h"
 #include "base/image/srgb_table.h"
 #include "base/io/url.h"
-#include "base/text/base64.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/looks/shininess.h"
 #include "scenegraph/looks/texture_sampler.h"
@@ -352,7 +351,7 @@ NodeId Materials::light_of_linear(std::uint32_t index) {
   const auto bytes = encode_as("light.png", *picture, why);
   if (!bytes) return {};
   const NodeId n = at->second = c_.add(nodes::ImageTexture, c_.file.at(Table::textures, index));
-  const std::string url = "data:image/png;base64," + base64(*bytes);
+  const std::string url = data_url("image/png", *bytes);
   c_.scene.set(n, nodes::image_texture::url, std::vector<std::string_view>{url}, nodes::image_texture::repeatS, false,
                nodes::image_texture::repeatT, false);
   return n;
@@ -396,7 +395,7 @@ std::string Materials::picture_url(std::uint32_t index, Json image) {
   const auto view = url.empty() ? c_.file.index(Table::bufferViews, image["bufferView"]) : none;
   if (const auto bytes = view == none ? std::nullopt : c_.buffers.view(view)) {
     const auto mime = sniff_mime(bytes->bytes);
-    url = "data:" + std::string(mime.empty() ? image["mimeType"].text() : mime) + ";base64," + base64(bytes->bytes);
+    url = data_url(mime.empty() ? image["mimeType"].text() : mime, bytes->bytes);
   }
   return url;
 }

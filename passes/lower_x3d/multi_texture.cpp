@@ -44,16 +44,10 @@ Rgba pixel(const Image& image, int x, int y) {
   return {at(0), at(1), at(2), c == 4 ? at(3) : 1};
 }
 
-/// The number of a pixel beside the border: on the other side, back again, or the border itself.
-/// Places may be farther away than an int can say.
-int wrapped(double i, int n, Wrap wrap) {
-  double within = i;
-  if (wrap != Wrap::clamp) {
-    const double period = wrap == Wrap::mirror ? 2.0 * n : n;
-    within -= period * std::floor(i / period);
-    if (within >= n) within = period - 1 - within;
-  }
-  return static_cast<int>(std::clamp(within, 0.0, n - 1.0));
+/// Places may be farther away than a whole number can say.
+std::int64_t whole(double v) {
+  constexpr double farthest = 1e15;
+  return static_cast<std::int64_t>(std::clamp(v, -farthest, farthest));
 }
 
 /// Between the middles of the four pixels around the place.
@@ -61,6 +55,7 @@ Rgba sample(const Sheet& sheet, double s, double t) {
   const Image& image = *sheet.image;
   const double x = s * image.width - 0.5, y = (1 - t) * image.height - 0.5;
   const double left = std::floor(x), top = std::floor(y), u = x - left, v = y - top;
+  const std::int64_t column = whole(left), row = whole(top);
   Rgba out{};
   for (int corner = 0; corner < 4; ++corner) {
     const int dx = corner & 1, dy = corner >> 1;
@@ -213,11 +208,6 @@ class Combiner {
     return i < all.size() ? all[i] : NodeId{};
   }
 
-  NodeId properties_of(NodeId texture) const {
-    return scene_.is(texture, k::PixelTexture) ? scene_.get(texture, k::pixel_texture::textureProperties)
-                                               : scene_.get(texture, k::image_texture::textureProperties);
-  }
-
   bool read(Sheet& sheet) {
     if (scene_.is(sheet.texture, k::PixelTexture)) {
       namespace f = k::pixel_texture;
@@ -296,10 +286,12 @@ class Combiner {
     Combined made{scene_.add(k::ImageTexture, scene_.where(n)), {}, lit};
     scene_.set_name(made.texture, scene_.name(n));
     scene_.set(made.texture, f::url, std::vector<std::string_view>{url});
-    if (base.sampler.s == Wrap::clamp) scene_.set(made.texture, f::repeatS, false);
-    if (base.sampler.t == Wrap::clamp) scene_.set(made.texture, f::repeatT, false);
-    if (const NodeId properties = properties_of(base.texture))
+    if (const NodeId properties = texture_properties(scene_, base.texture)) {
       scene_.set(made.texture, f::textureProperties, properties);
+    } else {
+      if (base.sampler.s == Wrap::clamp) scene_.set(made.texture, f::repeatS, false);
+      if (base.sampler.t == Wrap::clamp) scene_.set(made.texture, f::repeatT, false);
+    }
     if (base.places == TexcoordMap{}) return made;
     if (const auto moved = texture_transform_of(base.places)) {
       namespace t = k::texture_transform;

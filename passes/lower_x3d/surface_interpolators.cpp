@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "passes/lower_x3d/nurbs_geometry.h"
-#include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
 
@@ -41,7 +40,6 @@ bool lower(Scene& scene, Scope& scope, NodeId n, double tolerance, Diagnostics& 
 
 bool lower_surface_interpolators(Scene& scene, double tolerance, Diagnostics& diag) {
   const auto is_one = [&](NodeId n) { return scene.is(n, nodes::NurbsSurfaceInterpolator); };
-  if (!any_node(scene, is_one)) return false;
   bool changed = false;
   for_each_scope(scene, [&](Scope& scope) {
     std::vector<NodeId> found;

@@ -22,8 +22,10 @@ class Vrml97Lowering {
 
   bool run() {
     const auto all = all_nodes(scene_);
-    for (NodeId n : all) color(n);
-    for (NodeId n : all) borders(n);
+    for (NodeId n : all) {
+      color(n);
+      borders(n);
+    }
     for (NodeId n : all) changed_ |= lower_texture_background(scene_, n, diag_);
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
@@ -60,15 +62,13 @@ class Vrml97Lowering {
 
   /// What TextureProperties say of the border of a picture, as far as repeatS and repeatT can.
   void borders(NodeId n) {
-    const auto take = [&](auto repeat_s, auto repeat_t, auto properties) {
-      if (!scene_.get(n, properties)) return;
-      const TextureSampler sampler = read_sampler(scene_, n);
-      scene_.set(n, repeat_s, sampler.s != Wrap::clamp, repeat_t, sampler.t != Wrap::clamp);
-    };
+    if (!texture_properties(scene_, n)) return;
     namespace i = nodes::image_texture;
     namespace p = nodes::pixel_texture;
-    if (scene_.is(n, nodes::ImageTexture)) take(i::repeatS, i::repeatT, i::textureProperties);
-    if (scene_.is(n, nodes::PixelTexture)) take(p::repeatS, p::repeatT, p::textureProperties);
+    const TextureSampler sampler = read_sampler(scene_, n);
+    const bool s = sampler.s != Wrap::clamp, t = sampler.t != Wrap::clamp;
+    if (scene_.is(n, nodes::ImageTexture)) scene_.set(n, i::repeatS, s, i::repeatT, t);
+    if (scene_.is(n, nodes::PixelTexture)) scene_.set(n, p::repeatS, s, p::repeatT, t);
   }
 
   // ---- what has none ----

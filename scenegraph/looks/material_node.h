@@ -11,7 +11,7 @@ struct MaterialNode {
   enum class Kind : std::uint8_t { phong, physical, unlit };  // Material, PhysicalMaterial, UnlitMaterial
 
   Kind kind = Kind::phong;
-  // Colours are as displayed; a PhysicalMaterial has linear ones (19775-1:2023, 17.2.2; glTF 2.0, 3.9.2).
+  // Colours are as displayed; a PhysicalMaterial has linear ones, as in glTF (2.0, 3.9.2) and X_ITE 15.
   Vec3 color{0.8, 0.8, 0.8};  // of faces: diffuseColor, baseColor, of an UnlitMaterial its emissiveColor
   Vec3 emissive{0, 0, 0};
   Vec3 specular{0, 0, 0};

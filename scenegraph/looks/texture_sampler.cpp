@@ -29,28 +29,32 @@ Minified minified_of(std::string_view filter) {
   return at == std::end(filters) ? Minified::linear_mipmap_linear : at->second;
 }
 
-TextureSampler sampler_of(const Scene& scene, bool repeat_s, bool repeat_t, NodeId properties) {
-  if (!scene.is(properties, nodes::TextureProperties))
-    return {.s = repeat_s ? Wrap::repeat : Wrap::clamp, .t = repeat_t ? Wrap::repeat : Wrap::clamp};
-  return {.s = wrap_of(scene.get(properties, p::boundaryModeS)),
-          .t = wrap_of(scene.get(properties, p::boundaryModeT)),
-          .nearest = scene.get(properties, p::magnificationFilter) == "NEAREST_PIXEL",
-          .minified = minified_of(scene.get(properties, p::minificationFilter))};
-}
-
 }  // namespace
 
 std::string_view minification_filter(Minified minified) {
   return std::ranges::find(filters, minified, &std::pair<std::string_view, Minified>::second)->first;
 }
 
+NodeId texture_properties(const Scene& scene, NodeId n) {
+  const NodeId properties = scene.is(n, nodes::ImageTexture)   ? scene.get(n, nodes::image_texture::textureProperties)
+                            : scene.is(n, nodes::PixelTexture) ? scene.get(n, nodes::pixel_texture::textureProperties)
+                                                               : NodeId{};
+  return scene.is(properties, nodes::TextureProperties) ? properties : NodeId{};
+}
+
 TextureSampler read_sampler(const Scene& scene, NodeId n) {
+  const auto wrap = [](bool repeats) { return repeats ? Wrap::repeat : Wrap::clamp; };
+  if (const NodeId properties = texture_properties(scene, n))
+    return {.s = wrap_of(scene.get(properties, p::boundaryModeS)),
+            .t = wrap_of(scene.get(properties, p::boundaryModeT)),
+            .nearest = scene.get(properties, p::magnificationFilter) == "NEAREST_PIXEL",
+            .minified = minified_of(scene.get(properties, p::minificationFilter))};
   namespace i = nodes::image_texture;
   namespace x = nodes::pixel_texture;
   if (scene.is(n, nodes::ImageTexture))
-    return sampler_of(scene, scene.get(n, i::repeatS), scene.get(n, i::repeatT), scene.get(n, i::textureProperties));
+    return {.s = wrap(scene.get(n, i::repeatS)), .t = wrap(scene.get(n, i::repeatT))};
   if (scene.is(n, nodes::PixelTexture))
-    return sampler_of(scene, scene.get(n, x::repeatS), scene.get(n, x::repeatT), scene.get(n, x::textureProperties));
+    return {.s = wrap(scene.get(n, x::repeatS)), .t = wrap(scene.get(n, x::repeatT))};
   return {};
 }
 

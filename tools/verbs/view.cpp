@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "base/io/output.h"
-#include "base/text/base64.h"
+#include "base/io/url.h"
 #include "base/text/json.h"
 #include "convert/placing.h"
 #include "convert/shown_surface.h"
@@ -115,7 +115,7 @@ class Viewer {
         s_.diag().report(Diag::too_large, scene.where(n), "the sound of an AudioClip", "4 MB", file->bytes.size());
         continue;
       }
-      const std::string url = fmt::format("data:{};base64,{}", type, base64(file->bytes));
+      const std::string url = data_url(type, file->bytes);
       scene.set(n, nodes::audio_clip::url, std::vector<std::string_view>{url});
     }
   }
