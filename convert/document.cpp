@@ -28,6 +28,7 @@ struct Document::State {
   std::shared_ptr<const Scene> parse_inlined(const std::string& file, Diagnostics& diag) {
     auto read = read_world(file, {.lookups = &buffers}, diag);
     if (!read) return nullptr;
+    if (options.show_all) show_all(read->scene);
     Statistics uncounted;
     PassContext ctx(diag, uncounted);
     lower_vrml1(read->scene, {}, ctx);

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "convert/expanded_copy.h"
 #include "convert/startup_scripts.h"
-#include "passes/lower_vrml1/lower_vrml1.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/switches.h"
@@ -32,16 +33,33 @@ double triangles_of_faces(std::span<const std::int32_t> indices) {
   return out + static_cast<double>(std::max<std::size_t>(corners, 2) - 2);
 }
 
+/// The elements of a field that its type may have.
+std::size_t n_elements(const Scene& scene, NodeId n, std::string_view field) {
+  const auto slot = scene.type(n).find(field, Dialect::x3d);
+  return slot ? scene.value(n, *slot).count : 0;
+}
+
+/// The sets of X3D: of their indices, or of all their points.
+double triangles_of_set(const Scene& scene, NodeId n) {
+  auto corners = n_elements(scene, n, "index");
+  for_each_child(scene, n, [&](NodeId c) { corners = std::max(corners, n_elements(scene, c, "point")); });
+  const bool are_quads = scene.is(n, nodes::QuadSet) || scene.is(n, nodes::IndexedQuadSet);
+  const bool are_triangles = scene.is(n, nodes::TriangleSet) || scene.is(n, nodes::IndexedTriangleSet);
+  return static_cast<double>(corners) / (are_triangles ? 3 : are_quads ? 2 : 1);
+}
+
+bool is_line_or_point(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::IndexedLineSet) || scene.is(n, nodes::LineSet) || scene.is(n, nodes::PointSet);
+}
+
 /// About what a geometry becomes; 0 for other nodes.
 double triangles_of(const Scene& scene, NodeId n) {
+  constexpr double of_curved = 100, of_box = 12;
+  if (!scene.is(n, nodes::X3DGeometryNode) || is_line_or_point(scene, n)) return 0;
   if (scene.is(n, nodes::IndexedFaceSet)) return triangles_of_faces(scene.get(n, nodes::indexed_face_set::coordIndex));
-  if (scene.is(n, nodes::IndexedTriangleSet))
-    return static_cast<double>(scene.get(n, nodes::indexed_triangle_set::index).size()) / 3;
-  if (scene.is(n, nodes::Box)) return 12;
-  return scene.is(n, nodes::Cylinder) || scene.is(n, nodes::Cone) || scene.is(n, nodes::Sphere) ||
-                 scene.is(n, nodes::Extrusion) || scene.is(n, nodes::ElevationGrid)
-             ? 100
-             : 0;
+  if (scene.is(n, nodes::Box)) return of_box;
+  const bool is_set = scene.is(n, nodes::X3DComposedGeometryNode) && !scene.is(n, nodes::ElevationGrid);
+  return is_set ? triangles_of_set(scene, n) : of_curved;
 }
 
 /// Triangles below the nodes of a scene, each counted as often as it stands there.
@@ -123,6 +141,37 @@ int per_cent(double hidden, double all) {
   return hidden < all ? std::min(rounded, 99) : rounded;
 }
 
+/// Whether there is a Switch, or may be one, in a scene or in the files that it shows.
+class SwitchSearch {
+ public:
+  SwitchSearch(Resources* files, Diagnostics& diag) : files_(files), diag_(diag) {}
+
+  bool finds(const Scene& scene) {
+    if (!seen_.insert(&scene).second) return false;
+    if (any_node(scene, [&](NodeId n) { return is_switch(scene, n); })) return true;
+    if (!files_) return false;
+    for (std::uint32_t i = 0; i < scene.node_count(); ++i)
+      if (finds_below(scene, NodeId{i})) return true;
+    return false;
+  }
+
+ private:
+  bool finds_below(const Scene& scene, NodeId n) {
+    if (scene.is(n, nodes::vrml1::WWWInline) || scene.is(n, nodes::vrml1::File))
+      return true;  // read when it is lowered
+    if (!scene.is(n, nodes::Inline) || !scene.get(n, nodes::inline_::load)) return false;
+    if (scene.value(n, nodes::inline_::url.slot).is) return true;
+    const auto urls = scene.get(n, nodes::inline_::url);
+    if (urls.empty()) return false;
+    const auto world = files_->world(urls, scene.where(n), diag_).scene;
+    return world && finds(*world);
+  }
+
+  Resources* files_;
+  Diagnostics& diag_;
+  std::set<const Scene*> seen_;
+};
+
 void report_hidden(const Scene& scene, Diagnostics& diag) {
   const Census census(scene);
   const double all = census.all(), hidden = census.hidden();
@@ -138,17 +187,8 @@ void report_hidden(const Scene& scene, Diagnostics& diag) {
 
 }  // namespace
 
-void report_hidden_geometry(const Scene& scene, Diagnostics& diag) {
-  const auto is_off = [&](NodeId n) { return is_switched_off(scene, n); };
-  if (any_node(scene, [&](NodeId n) { return scene.is(n, nodes::vrml1::Switch) && is_off(n); })) {
-    Scene lowered = scene;
-    Diagnostics unheard(diag.shared_sources());
-    Statistics uncounted;
-    PassContext silent(unheard, uncounted);
-    lower_vrml1(lowered, {}, silent);
-    return report_hidden(lowered, diag);
-  }
-  if (any_node(scene, is_off)) report_hidden(scene, diag);
+void report_hidden_geometry(const Scene& scene, Resources* files, Diagnostics& diag) {
+  if (SwitchSearch(files, diag).finds(scene)) report_hidden(expanded_copy(scene, files, diag), diag);
 }
 
 }  // namespace wrlkit

@@ -93,9 +93,12 @@ std::optional<Info> info(Document&& document, const InfoOptions& options) {
   if (!document) return std::nullopt;
   const World& world = document.world();
   check_values(world.scene, document.diag());
-  report_undrawn(world.scene, document.diag());
+  report_undrawn(world.scene, document.resources(), document.diag());
   if (!document.runs_startup()) report_startup_scripts(world.scene, document.diag());
-  Info out{.format = world.format, .gzip = world.gzip, .bytes = world.bytes};
+  Info out{.format = world.format,
+           .gzip = world.gzip,
+           .is_inventor = world.scene.header.starts_with("#Inventor"),
+           .bytes = world.bytes};
   count_authored(world.scene, out);
   const WorldMeshes meshes(document);
   if (!meshes.good()) return std::nullopt;

@@ -22,6 +22,7 @@ struct TextureInfo {
 struct Info {
   Format format = Format::none;
   bool gzip = false;
+  bool is_inventor = false;                    // of VRML 1.0: the language that it is a part of
   std::uint64_t bytes = 0;                     // on disk
   std::map<std::string, std::uint64_t> nodes;  // authored, each once
   GeometryCensus geometry;

@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/silent_task.h"
 #include "base/stop.h"
+#include "convert/expanded_copy.h"
 #include "convert/hidden_geometry.h"
-#include "passes/expand_protos/expand_protos.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/switches.h"
 #include "scenegraph/walk.h"
@@ -134,21 +133,12 @@ void report_without_roots(const Scene& scene, Diagnostics& diag) {
               "its prototypes (" + listed(proto_names(scene)) + ") are declared, and none of them is used");
 }
 
-Scene with_protos_expanded(const Scene& scene, const Diagnostics& diag) {
-  Scene out = scene;
-  Diagnostics unheard(diag.shared_sources());
-  Statistics uncounted;
-  PassContext silent(unheard, uncounted);
-  expand_protos(out, {}, silent);
-  return out;
-}
-
 /// `hidden_told`: what its Switches hide has been reported.
 void report_nothing_shown(const Scene& scene, bool hidden_told, Diagnostics& diag) {
   if (scene.main.roots.empty()) return report_without_roots(scene, diag);
   if (Search(scene, false).is_drawn(scene.main.roots) == Answer::yes) return;
   // Switches may be in prototypes, and prototypes in Switches.
-  const Scene expanded = with_protos_expanded(scene, diag);
+  const Scene expanded = expanded_copy(scene, nullptr, diag);
   const auto& roots = expanded.main.roots;
   if (Search(expanded, false).is_drawn(roots) != Answer::no) return;
   const bool hidden = Search(expanded, true).is_drawn(roots) != Answer::no;
@@ -157,9 +147,9 @@ void report_nothing_shown(const Scene& scene, bool hidden_told, Diagnostics& dia
 
 }  // namespace
 
-void report_undrawn(const Scene& scene, Diagnostics& diag) {
+void report_undrawn(const Scene& scene, Resources* files, Diagnostics& diag) {
   const auto before = diag.count(Diag::hidden_geometry);  // of other files
-  report_hidden_geometry(scene, diag);
+  report_hidden_geometry(scene, files, diag);
   report_nothing_shown(scene, diag.count(Diag::hidden_geometry) > before, diag);
 }
 

@@ -162,7 +162,8 @@ std::optional<std::string> CopiedFiles::url(std::string_view url, Span where, Ur
   const auto target = resources_.target(url, where, *scene_.sources);
   const auto at = target.kind == Kind::file ? places_.find(target.path) : places_.end();
   if (at == places_.end() || is_here(at->first)) return std::nullopt;
-  return url_of(at->second) + std::string(url.substr(std::min(url.find('#'), url.size())));
+  const auto behind = url.substr(std::min(url.find('#'), url.size()));  // a part of the file, or of its name
+  return url_of(at->second) + std::string(at->first.ends_with(behind) ? std::string_view() : behind);
 }
 
 bool CopiedFiles::write() {

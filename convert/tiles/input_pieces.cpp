@@ -18,7 +18,7 @@ bool InputPieces::open(const std::string& folder) {
 
 bool InputPieces::read_scene(const std::string& path) {
   if (!reader_.read(path)) return false;
-  report_undrawn(reader_.scene(), reader_.context().diag);
+  report_undrawn(reader_.scene(), reader_.resources(), reader_.context().diag);
   return true;
 }
 

@@ -16,6 +16,7 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/named_places.h"
 #include "scenegraph/places/ways.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit::tiles {
 namespace {
@@ -161,8 +162,8 @@ bool is_lost(const Scene& scene, NodeId n) {
 
 void count_lost(const Scene& scene, SceneCounts& counts) {
   if (!scene.main.routes.empty()) counts.lost["ROUTE"] += scene.main.routes.size();
-  for (std::uint32_t i = 0; i < scene.node_count(); ++i)
-    if (is_lost(scene, NodeId{i})) ++counts.lost[std::string(scene.type(NodeId{i}).name)];
+  for (const NodeId n : reachable(scene, scene.main))
+    if (is_lost(scene, n)) ++counts.lost[std::string(scene.type(n).name)];
 }
 
 /// Pictures that a pass has made become part of the texture: tiles are written when the scene is gone.

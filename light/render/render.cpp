@@ -41,12 +41,17 @@ std::string viewpoint_question(const Scene& scene, const Stage& stage, const std
   return "; there are " + all + (n > most ? ", ..." : "");
 }
 
+/// The file as a whole.
+Span file_of(const Scene& scene) {
+  return scene.main.roots.empty() ? Span{} : Span{.begin = scene.where(scene.main.roots[0]).begin};
+}
+
 /// The Viewpoint that the options ask for; none: fit.
 std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, const RenderOptions& options,
                                        Diagnostics& diag) {
   if (options.fit || stage.viewpoints.empty()) {
     if (!options.viewpoint.empty() && !options.fit)
-      diag.report(Diag::viewpoint_not_found, {}, options.viewpoint,
+      diag.report(Diag::viewpoint_not_found, file_of(scene), options.viewpoint,
                   viewpoint_question(scene, stage, options.viewpoint));
     return {};
   }
@@ -55,7 +60,8 @@ std::optional<Placed> choose_viewpoint(const Scene& scene, const Stage& stage, c
     if (scene.name(p.node) == options.viewpoint) return p;
   for (const Placed& p : stage.viewpoints)
     if (scene.get(p.node, nodes::viewpoint::description) == options.viewpoint) return p;
-  diag.report(Diag::viewpoint_not_found, {}, options.viewpoint, viewpoint_question(scene, stage, options.viewpoint));
+  diag.report(Diag::viewpoint_not_found, file_of(scene), options.viewpoint,
+              viewpoint_question(scene, stage, options.viewpoint));
   return stage.viewpoints.front();
 }
 

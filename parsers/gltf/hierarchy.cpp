@@ -315,9 +315,12 @@ std::vector<TransformFields> Hierarchy::places(Json attributes) {
   };
   auto t = read("TRANSLATION", 3), r = read("ROTATION", 4), s = read("SCALE", 3);
   const std::size_t n = std::max({t ? t->count() : 0, r ? r->count() : 0, s ? s->count() : 0});
+  const auto is_read = [&](std::string_view key) {
+    return key == "TRANSLATION" || key == "ROTATION" || key == "SCALE" ||
+           (c_.file.is_own() && key == "_FEATURE_ID_0");  // rows of parts, which have names and ways (part_rows.h)
+  };
   for (Json a : attributes)
-    if (a.key() != "TRANSLATION" && a.key() != "ROTATION" && a.key() != "SCALE")
-      c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
+    if (!is_read(a.key())) c_.lost.add("instances' " + std::string(a.key()), c_.file.where(a));
   std::vector<TransformFields> all;
   for (std::size_t i = 0; i < n; ++i) {
     if (++n_instances_ > max_instances) {

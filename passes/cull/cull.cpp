@@ -33,6 +33,13 @@ class Culling {
         stage_(set_stage(scene, silent_.diag)) {}
 
   Outcome run() {
+    const Outcome out = cull();
+    hand_in_list();
+    return out;
+  }
+
+ private:
+  Outcome cull() {
     if (silent_.diag.count(Diag::expansion_limit) > 0) {  // what is hidden in all places seen may be visible in others
       ctx_.diag.report(Diag::not_simplified, {}, "by cull: more places than can be looked at");
       return Outcome::unchanged;
@@ -54,12 +61,13 @@ class Culling {
     }
     if (left_out_.empty() && n_caps_ == 0) return Outcome::unchanged;
     remove_shapes();
-    hand_in_list();
-    count_figures(ctx_, "cull", before, figures_of(scene_));
+    const auto after = figures_of(scene_);
+    if (after.draws == 0 && before.draws > 0)
+      ctx_.diag.report(Diag::nothing_shown, {}, "cull has removed all that there was");
+    count_figures(ctx_, "cull", before, after);
     return Outcome::changed;
   }
 
- private:
   const Mesh& triangles(NodeId geometry);
   void find_fixed();
   void find_small();

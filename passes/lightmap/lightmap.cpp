@@ -311,9 +311,8 @@ Outcome bake_view(Scene& scene, Views& views, PassContext& ctx) {
 void report_not_lit(const Scene& scene, Diagnostics& diag) {
   if (const auto n = closed_nodes(scene))
     diag.report(Diag::not_lit, {},
-                fmt::format("surfaces of {} Inlines and prototype instances; use '-p inline,expand-protos,lightmap' to "
-                            "light them, too",
-                            n));
+                fmt::format("{} {} could not be read", n,
+                            n == 1 ? "Inline or prototype instance that" : "Inlines or prototype instances that"));
   std::vector<char> is_shown(scene.node_count());
   for (NodeId n : reachable(scene, scene.main)) is_shown[n.value] = 1;
   const auto left = [&](NodeId shape, const char* why) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "passes/lower_vrml1/strokes.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit::vrml1 {
@@ -176,7 +177,8 @@ NodeId Looks::appearance(const State& s, std::size_t k, bool colored, bool strok
              product = mixes && model == "MODULATE";
   const NodeId material = material_node(s, k % palette(s).size, colored, strokes, product ? texture : NodeId{});
   const auto map = texture && !baked ? s.texture_transform : 0;
-  auto& n = appearances_[{material, texture, map}];
+  const NodeId style = strokes ? s.draw_style : NodeId{};
+  auto& n = appearances_[{material, texture, map, style}];
   if (n) return n;
   if ((mixes && !product) || model == "BLEND")
     diag_.report(Diag::no_vrml97_value, scene_.where(s.texture), "Texture2", "model");
@@ -184,6 +186,7 @@ NodeId Looks::appearance(const State& s, std::size_t k, bool colored, bool strok
   if (material) scene_.set(n, nodes::appearance::material, material);
   if (texture && !product) scene_.set(n, nodes::appearance::texture, texture);
   if (const NodeId t = texture_transform(map)) scene_.set(n, nodes::appearance::textureTransform, t);
+  if (style) set_strokes(scene_, n, style);
   return n;
 }
 

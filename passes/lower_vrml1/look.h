@@ -57,7 +57,7 @@ class Looks {
   std::map<std::tuple<NodeId, NodeId, bool>, Palette> palettes_;
   std::map<std::tuple<NodeId, NodeId, bool>, NodeId> colors_;
   std::map<std::tuple<NodeId, NodeId, bool, std::size_t, bool, bool, NodeId>, NodeId> materials_;
-  std::map<std::tuple<NodeId, NodeId, std::uint32_t>, NodeId> appearances_;
+  std::map<std::tuple<NodeId, NodeId, std::uint32_t, NodeId>, NodeId> appearances_;
   std::map<NodeId, NodeId> textures_;
   std::map<std::uint32_t, NodeId> transforms_;
   std::vector<TexcoordMap> maps_{TexcoordMap{}};

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
 #include "passes/analysis/nesting.h"
+#include "passes/analysis/text_list.h"
 #include "passes/lower_vrml1/lowering.h"
 #include "passes/lower_vrml1/singles.h"
+#include "passes/lower_vrml1/strokes.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace vrml1 {
@@ -16,14 +20,18 @@ namespace {
 
 namespace v1 = nodes::vrml1;
 
+constexpr std::string_view cameras = "Cameras";  // the Switch of that name holds the viewpoints
+
 }  // namespace
 
 void Lowering::run() {
   legal_names();
+  const auto names = names_in_use();
   Frame frame;
   State state;
   for (NodeId n : scene_.main.roots) visit(n, state, frame);
   scene_.main.roots = children(scene_, frame);
+  report_lost(names);
   scene_.format = Format::vrml97;
   scene_.header.clear();
   limit_nesting(scene_, diag_);
@@ -40,6 +48,26 @@ void Lowering::legal_names() {
     if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
     if (name != old) scene_.set_name(NodeId{i}, name);
   }
+}
+
+std::vector<std::string_view> Lowering::names_in_use() const {
+  std::vector<std::string_view> out;
+  for (NodeId n : reachable(scene_, scene_.main)) {
+    const auto name = scene_.name(n);
+    const bool says_what_it_is = scene_.is(n, nodes::Vrml1InfoNode) || (is(n, v1::Switch) && name == cameras);
+    if (!name.empty() && !says_what_it_is) out.push_back(name);
+  }
+  return out;
+}
+
+/// Names of properties, which have no node of their own in VRML97, and of what shows nothing.
+void Lowering::report_lost(std::span<const std::string_view> names_before) {
+  const auto now = names_in_use();
+  std::unordered_set<std::string_view> known(now.begin(), now.end());
+  TextList lost;
+  for (const auto name : names_before)
+    if (known.insert(name).second) lost.add(name);
+  if (!lost.empty()) diag_.report(Diag::names_lost, {}, "lower-vrml1", lost.count(), lost.text());
 }
 
 bool Lowering::step(NodeId n) {
@@ -172,11 +200,15 @@ bool Lowering::property(NodeId n, State& s) {
                 : style == "POINTS"    ? Drawing::points
                 : style == "INVISIBLE" ? Drawing::invisible
                                        : Drawing::filled;
+    s.draw_style = says_strokes(scene_, n) ? first_equal(n) : NodeId{};
+  } else if (t == v1::PickStyle) {
+    if (scene_.get(n, v1::pick_style::style) != "SHAPE")
+      diag_.report(Diag::no_vrml97_value, scene_.where(n), "PickStyle", "style");
   } else if (t == v1::ProfileCoordinate2 || t == v1::ProfileCoordinate3 || t == v1::LinearProfile ||
              t == v1::NurbsProfile) {
     diag_.report(Diag::no_vrml97_node, scene_.where(n), scene_.type(n).name);
   } else
-    return scene_.is(n, nodes::Vrml1PropertyNode);  // of no effect on what is there: Complexity, PickStyle
+    return scene_.is(n, nodes::Vrml1PropertyNode);  // of no effect on what is there: Complexity
   return true;
 }
 
@@ -269,9 +301,13 @@ std::int32_t Lowering::chosen_of(NodeId n, std::size_t n_children, State& s) con
 // later.
 void Lowering::visit_switch(NodeId n, State& s, Frame& frame) {
   const auto nodes = children_of(n);
-  const auto chosen = chosen_of(n, nodes.size(), s);
+  auto chosen = chosen_of(n, nodes.size(), s);
+  if (is(n, v1::Blinker) && scene_.get(n, v1::blinker::on)) {
+    diag_.report(Diag::no_vrml97_value, scene_.where(n), "Blinker", "speed");
+    if (chosen == none) chosen = 0;  // where it begins
+  }
   if (chosen == all) return visit_group(n, nodes, s, frame);
-  if (scene_.name(n) == "Cameras") {  // the viewpoints of the world; the chosen one comes first
+  if (scene_.name(n) == cameras) {  // the viewpoints of the world; the chosen one comes first
     std::vector<NodeId> order(nodes.begin(), nodes.end());
     if (chosen > 0 && static_cast<std::size_t>(chosen) < order.size())
       std::swap(order[0], order[static_cast<std::size_t>(chosen)]);

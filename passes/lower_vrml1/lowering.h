@@ -3,7 +3,9 @@
 #pragma once
 #include <algorithm>
 #include <map>
+#include <span>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <vector>
 
@@ -55,6 +57,8 @@ class Lowering {
   }
   bool is(NodeId n, TypeId t) const { return scene_.is(n, t); }
   void legal_names();
+  std::vector<std::string_view> names_in_use() const;
+  void report_lost(std::span<const std::string_view> names_before);
   /// False when there is too much that comes again, which is reported once. What comes for the first time is always
   /// done.
   bool step(NodeId n);

@@ -154,6 +154,12 @@ NodeId info_of(Scene& scene, NodeId source) {
 
 NodeId fog_of(Scene& scene, NodeId source, Diagnostics& diag) {
   namespace e = v1::environment;
+  const auto report_given = [&](std::uint16_t slot, std::string_view field) {
+    if (scene.find(source, slot)) diag.report(Diag::no_vrml97_value, scene.where(source), "Environment", field);
+  };
+  report_given(e::ambientIntensity.slot, "ambientIntensity");
+  report_given(e::ambientColor.slot, "ambientColor");
+  report_given(e::attenuation.slot, "attenuation");
   const auto type = scene.get(source, e::fogType);
   if (type == "NONE") return {};
   NodeId n = named(scene, nodes::Fog, source);

@@ -38,6 +38,7 @@ enum class Drawing : std::uint8_t { filled, lines, points, invisible };
 struct State {
   // Property nodes of the file, and VertexProperty; none: the default.
   NodeId coord, normal, material, color, texture, texture_coord, hints, font;
+  NodeId draw_style;                    // one that says how lines or points look
   std::uint32_t texture_transform = 0;  // of Looks
   Binding material_binding = Binding::automatic, normal_binding = Binding::automatic,
           texture_binding = Binding::automatic;

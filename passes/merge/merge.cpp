@@ -58,6 +58,13 @@ class Merging {
         still_(scene, usage_, options.parts) {}
 
   Outcome run() {
+    const Outcome out = merge();
+    hand_in_csv();
+    return out;
+  }
+
+ private:
+  Outcome merge() {
     const auto before = figures_of(scene_);
     if (still_.too_many() || (!options_.instanced && !options_.parts &&
                               before.draws <= static_cast<std::size_t>(std::max(options_.max_draws, 0))))
@@ -76,7 +83,6 @@ class Merging {
     put_into_zones();
     remove_merged();
     if (!options_.parts) keep_lost_names();
-    hand_in_csv();
     ctx_.stats["merge.shapes"] += n_made_;
     const auto after = figures_of(scene_);
     if (!options_.parts) report_draws_left(after);
@@ -84,7 +90,6 @@ class Merging {
     return Outcome::changed;
   }
 
- private:
   const Mesh& mesh_of(NodeId geometry);
   const Outline& outline(NodeId geometry);
   void name_parts();

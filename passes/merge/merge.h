@@ -73,7 +73,7 @@ in the merged geometry, which is stored once for each place.)";
       "instead: merge only Shapes of one part, without names of their own, that look the same, where that makes "
       "compressed glTF smaller");
     faces.fineness_fields(f);
-    f("csv", csv, "file for a table of the parts: id, name, appearance");
+    f("csv", csv, "file for a table of the parts that were merged: id, name, appearance");
   }
 };
 

@@ -43,7 +43,7 @@ constexpr PassInfo all_passes[] = {
     pass<place, PlaceOptions>("place", "scale the scene to metres and turn it Y up", authored, authored,
                               {.phase = Phase::start}),
     pass<switch_on, SwitchOptions>("switch", "set what Switch nodes show, by name", authored, authored,
-                                   {.phase = Phase::start, .idempotent = true}),
+                                   {.phase = Phase::gathered, .idempotent = true}),
     pass<lower_vrml1, LowerVrml1Options>("lower-vrml1", "convert VRML 1.0 and Inventor to VRML97", authored, authored,
                                          {.phase = Phase::start, .idempotent = true}),
     pass<expand, ExpandOptions>(
@@ -81,7 +81,7 @@ constexpr PassInfo all_passes[] = {
     pass<smooth, SmoothOptions>("smooth", "move points towards the mean of their neighbours", authored, authored),
     pass<subdivide, SubdivideOptions>("subdivide", "subdivide coarse polygons to smooth surfaces", authored, authored),
     pass<lod, LodOptions>("lod", "make levels of detail", authored, authored),
-    pass<lightmap, LightmapOptions>("lightmap", "compute light and bake it into textures", authored, authored),
+    pass<lightmap, LightmapOptions>("lightmap", "compute light and bake it into textures", expanded, expanded),
     pass<combine_lightmap, CombineLightmapOptions>("combine-lightmap", "combine colour and baked light in one texture",
                                                    authored, authored, {.phase = Phase::light, .idempotent = true}),
     pass<normals, NormalsOptions>("normals", "compute missing normals from creaseAngle", authored, authored,

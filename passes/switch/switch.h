@@ -21,8 +21,8 @@ Sets which child a Switch shows. Switches are chosen by name.
 one. If several names match a Switch, the last one counts.
 
 `all` is for every Switch that still shows nothing: its children are moved into a Group, which the Switch then shows.
-`--show-all` puts this pass first in the pipeline, or sets `all` if the pass is already there. Steel models often hide
-all their parts in Switches until a Script turns them on.
+`--show-all` adds this pass, or sets `all` if the pass is already there. It runs after Inlines and prototypes have been
+expanded, where that is done at all. Steel models often hide all their parts in Switches until a Script turns them on.
 
 Cost: O(nodes).)";
   static constexpr StatisticInfo statistics[] = {{"switch.changed", "Switches that show something else than before"}};

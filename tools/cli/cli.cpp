@@ -193,12 +193,16 @@ bool takes_inputs(const Flags& flags, const Verb& verb) {
   namespace fs = std::filesystem;
   constexpr std::string_view of_one[] = {"convert", "optimize", "cat", "diff", "simplify", "compare-lod", "illuminate"};
   const bool is_of_one = std::ranges::find(of_one, std::string_view(verb.name)) != std::end(of_one);
-  const auto fault = [&](const std::string& path) {
+  const auto fault = [&](const std::string& path) -> std::string_view {
     std::error_code none;
     if (path.find("://") != path.npos && !fs::exists(path, none))
       return "is a url; wrlkit reads local files, so give the path of one";
-    return is_of_one && fs::is_directory(path, none) ? "is a folder; wrlkit corpus run works on all scenes in folders"
-                                                     : "";
+    if (is_of_one && path.find_first_of("*?") != path.npos && !fs::exists(path, none))
+      return "is a pattern; wrlkit corpus run works on all scenes that match";
+    if (!is_of_one || !fs::is_directory(path, none)) return "";
+    return verb.name == std::string_view("convert") || verb.name == std::string_view("optimize")
+               ? "is a folder; wrlkit corpus run works on all scenes in folders"
+               : "is a folder; name a scene in it";
   };
   for (const auto& path : flags.inputs)
     if (const std::string_view why = fault(path); !why.empty()) {
@@ -206,6 +210,14 @@ bool takes_inputs(const Flags& flags, const Verb& verb) {
       return false;
     }
   return true;
+}
+
+/// Verbs that print what the program knows have nothing to report on.
+void warn_of_idle_report(const Flags& flags, const Verb& verb) {
+  constexpr std::string_view of_program[] = {"passes", "formats", "explain", "docs", "completion", "manual"};
+  if (flags.report.empty() || flags.quiet) return;
+  if (std::ranges::find(of_program, std::string_view(verb.name)) == std::end(of_program)) return;
+  fmt::print(stderr, "wrlkit {}: --report has no effect here; see --json\n", verb.name);
 }
 
 void warn_of_missing_folders(const Flags& flags) {
@@ -341,6 +353,7 @@ int run_command_line(int argc, char** argv) {
     return nothing;
   }
   warn_of_missing_folders(flags);
+  warn_of_idle_report(flags, *chosen);
   if (!can_share_standard_output(flags, *chosen)) return usage;
   if (!check_outputs(flags, chosen->endings, chosen->makes)) return usage;
   if (!limit(*chosen, flags)) return usage;

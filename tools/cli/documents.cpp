@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/text/json.h"
+#include "tools/cli/session.h"
 
 namespace wrlkit {
 namespace {
@@ -27,6 +28,11 @@ void print_document(std::string_view json) {
   state().has_document = true;
   fmt::print("{}\n", json);
   std::fflush(stdout);
+}
+
+bool give_document(const Flags& flags, std::string_view json) {
+  if (flags.json) print_document(json);
+  return flags.report.empty() || write_text_file(flags.report, std::string(json) + '\n');
 }
 
 void complain(std::string_view verb, std::string_view why) {

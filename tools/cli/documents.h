@@ -9,6 +9,10 @@ namespace wrlkit {
 /// Prints a document, and a line break.
 void print_document(std::string_view json);
 
+/// What --json prints, and --report writes to a file, of verbs that give both the same. False when the file cannot be
+/// written, which was printed.
+bool give_document(const Flags&, std::string_view json);
+
 /// Prints why inputs cannot be used, as a line on standard error, and keeps it for the document.
 void complain(std::string_view verb, std::string_view why);
 

@@ -56,7 +56,7 @@ struct Flags {
   std::vector<std::string> include, exclude;
   std::string timeout = "10m", shard, base, joblog;
   int bundle = 0;  // 0: as many as are worth it
-  bool retry = false;
+  bool retry = false, overwrite = false;
   std::vector<std::string> outputs;  // report
   std::string compare;               // and of render: a scene
   int looks = 2000;

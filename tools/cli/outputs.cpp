@@ -99,6 +99,15 @@ bool are_one_file(const std::string& a, const std::string& b) {
   return is_same_file(a, b) || target_of(a) == target_of(b);
 }
 
+/// Prints which of them is one.
+bool are_no_folders(std::span<const NamedOutput> outputs) {
+  std::error_code fault;
+  const auto folder = std::ranges::find_if(outputs, [&](const auto& o) { return fs::is_directory(o.path, fault); });
+  if (folder == outputs.end()) return true;
+  fmt::print(stderr, "wrlkit: {} is a folder; name a file in it\n", in_words(*folder));
+  return false;
+}
+
 /// The outputs that options and arguments of the command line name.
 std::vector<NamedOutput> outputs_of(const Flags& flags, std::string_view endings) {
   std::vector<NamedOutput> out{{flags.output, "", endings}};
@@ -130,13 +139,15 @@ bool may_write(const Flags& flags, std::vector<NamedOutput> known, std::span<con
 bool check_outputs(const Flags& flags, std::string_view endings, std::string_view makes) {
   std::vector<NamedOutput> known;
   if (!makes.empty()) known.push_back({(fs::path(flags.output) / makes).string(), "", ""});
-  return may_write(flags, std::move(known), outputs_of(flags, endings));
+  const std::vector<NamedOutput> lists{{flags.report, "--report", ""}, {flags.joblog, "--joblog", ""}};
+  return are_no_folders(lists) && may_write(flags, std::move(known), outputs_of(flags, endings));
 }
 
 bool check_written_files(const Flags& flags, std::span<const WrittenFileOption> files) {
   std::vector<NamedOutput> more;
   for (const auto& [option, file] : files)
     more.push_back({file.path, "-p " + option, file.endings, file.endings.empty()});
+  if (!are_no_folders(more)) return false;
   if (!more.empty() && (flags.inputs.size() > 1 || std::ranges::any_of(flags.inputs, means_many))) {
     fmt::print(stderr, "wrlkit: {} names one file, which each of these worlds would replace\n", in_words(more[0]));
     return false;

@@ -55,16 +55,18 @@ std::string message_text(const Message& m, const Sources& sources, bool colours)
 
 std::string messages_text(const Diagnostics& diag, bool colours, bool quiet) {
   std::string out;
-  std::map<Diag, std::size_t> printed;
+  std::map<Diag, std::pair<std::size_t, Severity>> printed;
   for (const auto& m : diag.messages()) {
     if (quiet && m.severity != Severity::error) continue;
     out += message_text(m, diag.sources(), colours);
-    ++printed[m.id];
+    auto& [n, severity] = printed[m.id];
+    ++n;
+    severity = m.severity;  // -Werror may have changed it
   }
-  for (auto [id, n] : printed)
-    if (diag.count(id) > n)
+  for (const auto& [id, all] : printed)
+    if (diag.count(id) > all.first)
       out +=
-          fmt::format("{}: {} more like this [{}]\n", to_string(info(id).severity), diag.count(id) - n, info(id).name);
+          fmt::format("{}: {} more like this [{}]\n", to_string(all.second), diag.count(id) - all.first, info(id).name);
   return out;
 }
 

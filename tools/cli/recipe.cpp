@@ -8,6 +8,7 @@
 
 #include "base/io/read_file.h"
 #include "base/text/nearest_name.h"
+#include "convert/formats.h"
 #include "passes/pipeline/pipeline.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/python_passes.h"
@@ -262,6 +263,10 @@ std::optional<Recipe> read(const std::string& path, bool with_passes, std::strin
   std::error_code none;
   if (std::filesystem::is_directory(path, none)) {
     why = fmt::format("wrlkit: '{}' is a folder; the recipe, a file .toml, comes first, then the inputs\n", path);
+    return std::nullopt;
+  }
+  if (!ending_of(path, scene_endings()).empty()) {
+    why = fmt::format("wrlkit: '{}' is a scene; the recipe, a file .toml, comes first, then the inputs\n", path);
     return std::nullopt;
   }
   const auto text = read_bytes(path, most_bytes, why);

@@ -13,6 +13,8 @@
 #include "convert/nothing_shown.h"
 #include "convert/placing.h"
 #include "passes/switch/switch.h"
+#include "scenegraph/any_node.h"
+#include "scenegraph/nodes.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "writers/named_files.h"
@@ -66,8 +68,8 @@ bool Session::choose_pipeline(std::string_view standard) {
   }
   if (flags_.pipeline_given) pipeline_->complete(standard);
   pipeline_->put_first("place", place_options(flags_.load.unit, flags_.load.up), why);
+  if (flags_.load.show_all) pipeline_->add_gathered("switch");
   if (flags_.load.show_all) pipeline_->set("switch", "all", "true", why);
-  if (flags_.load.show_all) pipeline_->put_first("switch", {{"all", "true"}}, why);
   if (flags_.load.run_startup) pipeline_->add_gathered("startup");
   document_.leave_unplaced();
   const auto& after = flags_.print_after;
@@ -85,8 +87,10 @@ bool Session::runs(std::string_view pass) const {
 }
 
 bool Session::chooses_switches() const {
+  const Scene& scene = document_.world().scene;
+  const bool inlines = any_node(scene, [&](NodeId n) { return scene.is(n, nodes::Inline); });  // which may have them
   const auto fits = [&](const OptionInfo& o) {
-    return o.name == "all" ? o.value == "true" : has_switch_named(document_.world().scene, o.name);
+    return o.name == "all" ? o.value == "true" : inlines || has_switch_named(scene, o.name);
   };
   const auto steps = pipeline_ ? pipeline_->steps() : std::vector<Pipeline::StepInfo>();
   return std::ranges::any_of(
@@ -95,7 +99,9 @@ bool Session::chooses_switches() const {
 
 bool Session::read(const std::string& path) {
   if (!document_.read(path)) return false;
-  if (!chooses_switches() && !runs("startup")) report_undrawn(world().scene, diag());
+  const bool follows_inlines = !pipeline_ || runs("expand") || runs("inline");
+  if (!chooses_switches() && !runs("startup"))
+    report_undrawn(world().scene, follows_inlines ? &resources() : nullptr, diag());
   return true;
 }
 
@@ -119,11 +125,11 @@ PipelineOptions Session::pipeline_options() {
   return o;
 }
 
-int Session::end(bool made, int not_made) {
+int Session::end(bool made, int not_made, int at_least) {
   progress_.clear();
   if (made && document_.resources()) write_named_files(resources(), diag());
   document_.report_files_above();
-  const int code = exit_code(made, not_made);
+  const int code = made ? std::max(exit_code(made, not_made), at_least) : not_made;
   if (flags_.time_passes)
     for (auto& t : times_) fmt::print(stderr, "{:>9.3f} s  {}\n", t.seconds, t.name);
   if (flags_.stats)

@@ -60,7 +60,8 @@ class Session {
   void be_brief() { brief_ = !flags_.verbose; }
   /// Prints the messages, writes the report and gives the exit code. `made`: there is an output. With --json a run that
   /// has printed nothing, as it has failed, prints what the report says.
-  int end(bool made, int not_made = nothing);
+  /// `at_least`: what is known of it otherwise, as of several scenes.
+  int end(bool made, int not_made = nothing, int at_least = done);
 
  private:
   LoadOptions load_options();

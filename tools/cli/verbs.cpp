@@ -296,6 +296,7 @@ constexpr Verb all_verbs[] = {
                     "number of small files that share a process; default: 16, with passes in Python 1")
            ->check(CLI::Range(1, 1000));
        v.add_flag("--retry", f.retry, "try failed files again");
+       v.add_flag("--overwrite", f.overwrite, "replace files in the output folder that no corpus run has made");
      },
      run_corpus_run},
     {"corpus-plan", "show what corpus run would do: each file with its output, shard and estimated cost",

@@ -112,6 +112,12 @@ std::string in_our_words(const std::string& what) {
     return option == "IN" ? "IN and OUT are required"
                           : fmt::format("{}: {} values are needed, not {}", option, *needed, *given);
   }
+  if (const auto option = between(what, "Could not convert: ", " = "), text = between(what, " = ", "");
+      option && text) {
+    const bool is_list = text->find(' ') != text->npos && text->find(',') == text->npos;
+    return fmt::format("{}: '{}' is not a valid value{}", *option, *text,
+                       is_list ? "; commas separate the values of a list: 1,2,3" : "");
+  }
   const auto value = between(what, "Value ", " not in range "), least = between(what, " not in range ", " to "),
              most = between(what, " to ", "");
   if (value && least && most)

@@ -93,7 +93,7 @@ int run_corpus_report(const Flags& flags) {
   if (report.removed > 0 && !flags.quiet)
     fmt::print(stderr, "{} {} no longer there and not counted\n", report.removed,
                report.removed == 1 ? "input is" : "inputs are");
-  if (flags.json) print_document(report_json(report));
+  if ((flags.json || !flags.report.empty()) && !give_document(flags, report_json(report))) return nothing;
   auto paths = flags.outputs;
   if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};
   for (const auto& path : paths) {

@@ -21,8 +21,10 @@
 #include "base/text/json.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/documents.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
+#include "tools/corpus/foreign_outputs.h"
 #include "tools/corpus/status.h"
 #include "tools/corpus/workers.h"
 
@@ -166,7 +168,7 @@ class Run {
     }
     journal_.settle();
     if (!Workers::interrupted()) status.end(work_.out);
-    if (flags_.json) print_document(status.json());
+    if (!give_document(flags_, status.json())) return nothing;
     if (status.n_made() == 0 && status.n_done() > 0) return nothing;
     return complete_ && status.n(JobState::made) == status.n_done() ? done : partly;
   }
@@ -311,7 +313,7 @@ class Run {
                      : line.state == JobState::made_partly ? partly
                      : line.state == JobState::failed      ? nothing
                                                            : exit_code;
-    if (line.state == JobState::made_partly) status_->count_errors(line.messages);
+    if (is_made(line.state)) status_->count_messages(line.messages);
     log(line, code, signal);
     status_->add(line.state, job.cost, false);
   }
@@ -397,28 +399,23 @@ class Run {
   Workers workers_;
 };
 
-void print_plan(const Planned& p, const Flags& flags) {
+/// False when the report cannot be written, which was printed.
+bool give_plan(const Planned& p, const Flags& flags) {
   std::string json_text;
   JsonOut json(json_text);
-  if (flags.json)
-    json.begin_array();
-  else
-    fmt::print("shard\tseconds\tbytes\tinput\toutput\n");
+  json.begin_array();
+  if (!flags.json) fmt::print("shard\tseconds\tbytes\tinput\toutput\n");
   for (const auto& job : p.plan.jobs) {
     if (!flags.shard.empty() && job.shard != p.shard.index) continue;
     const auto output = (fs::path(flags.output) / job.output).string();
-    if (!flags.json) {
-      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes, job.input.path,
-                 output);
-      continue;
-    }
     json.object("shard", job.shard + 1, "seconds", job.cost, "bytes", job.input.bytes, "input", job.input.path,
                 "output", output);
+    if (!flags.json)
+      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes, job.input.path,
+                 output);
   }
-  if (flags.json) {
-    json.end_array();
-    print_document(json_text);
-  }
+  json.end_array();
+  return give_document(flags, json_text);
 }
 
 /// What the flags ask for; what is wrong with them is printed.
@@ -438,6 +435,13 @@ int run_corpus_run(const Flags& flags) {
   int code = usage;
   const auto planned = plan_of("corpus run", flags, work->text, code);
   if (!planned) return code;
+  if (const auto found = foreign_outputs(planned->plan, flags.output); found.count > 0 && !flags.overwrite) {
+    complain("corpus run",
+             fmt::format("'{}' holds {} that no corpus run has made, such as '{}'; choose another folder, "
+                         "or say --overwrite",
+                         flags.output, counted(found.count, "file"), found.first));
+    return usage;
+  }
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
     complain("corpus run", why);
@@ -453,7 +457,7 @@ int run_corpus_plan(const Flags& flags) {
   int code = usage;
   const auto planned = plan_of("corpus plan", flags, work->text, code);
   if (!planned) return code;
-  print_plan(*planned, flags);
+  if (!give_plan(*planned, flags)) return nothing;
   return planned->left_out.empty() ? done : partly;
 }
 

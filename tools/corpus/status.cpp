@@ -10,9 +10,11 @@
 #include <set>
 #include <utility>
 
+#include "base/diagnostics.h"
 #include "base/text/json.h"
 #include "base/text/json_reader.h"
 #include "base/text/utf8.h"
+#include "tools/cli/print_diagnostics.h"
 
 namespace wrlkit {
 namespace {
@@ -97,18 +99,22 @@ void CorpusStatus::show(const std::vector<std::string>& now) {
 
 CorpusStatus::~CorpusStatus() { clear(); }
 
-void CorpusStatus::count_errors(const std::string& messages) {
+void CorpusStatus::count_messages(const std::string& messages) {
   JsonDocument doc;
   if (doc.parse(messages)) return;
-  std::set<std::string_view> names;
-  for (auto m : doc.root())
-    if (m["severity"].text() == "error") names.insert(m["name"].text());
-  for (auto name : names) ++errors_[std::string(name)];
+  std::set<std::string_view> errors;
+  bool is_hidden = false;
+  for (auto m : doc.root()) {
+    if (m["severity"].text() == "error") errors.insert(m["name"].text());
+    is_hidden |= m["name"].text() == info(Diag::hidden_geometry).name;
+  }
+  for (auto name : errors) ++errors_[std::string(name)];
+  hidden_ += is_hidden;
 }
 
 void CorpusStatus::end(const std::string& out) {
   clear();
-  fmt::print(stderr, "{}{}", quiet_ ? "" : summary(), lacking(out));
+  fmt::print(stderr, "{}{}{}", quiet_ ? "" : summary(), quiet_ ? "" : hidden(), lacking(out));
 }
 
 std::string CorpusStatus::json() const {
@@ -130,6 +136,14 @@ std::string CorpusStatus::lacking(const std::string& out) const {
   std::string list;
   for (const auto& [files, name] : sorted) list += fmt::format("{}{} in {}", list.empty() ? "" : ", ", name, files);
   return fmt::format("not complete: {}'wrlkit corpus report {}' lists them\n", list.empty() ? "" : list + "; ", out);
+}
+
+std::string CorpusStatus::hidden() const {
+  if (hidden_ == 0) return "";
+  return fmt::format(
+      "hidden-geometry in {}: Switches that are off hide parts of them; `show-all = true` in [output] of "
+      "the recipe shows these\n",
+      counted(hidden_, "file"));
 }
 
 std::string CorpusStatus::summary() const {

@@ -21,8 +21,8 @@ class CorpusStatus {
   void failed(const std::string& input, const std::string& cause);
   /// Says how far it is when it is time to.
   void show(const std::vector<std::string>& now);
-  /// Counts errors of a file that was made without all that is in it; JSON, as --report has them.
-  void count_errors(const std::string& messages);
+  /// Counts what is said of a file that was made; JSON, as --report has it.
+  void count_messages(const std::string& messages);
   /// The last lines: what became of all files, and what the outputs lack.
   void end(const std::string& out);
   /// The same counts: files, those of earlier runs, and how many came to each end.
@@ -37,9 +37,11 @@ class CorpusStatus {
   void clear();
   std::string summary() const;
   std::string lacking(const std::string& out) const;
+  std::string hidden() const;
 
   std::size_t files_, done_ = 0, before_ = 0, states_[6] = {};
   std::map<std::string, std::size_t> errors_;   // files, by the name of the message
+  std::size_t hidden_ = 0;                      // files of which Switches hide much
   double cost_, done_cost_ = 0, cost_now_ = 0;  // now: without what was done before
   bool quiet_, terminal_, shown_ = false;
   Clock::time_point start_ = Clock::now(), last_ = start_;

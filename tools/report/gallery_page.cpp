@@ -1,6 +1,7 @@
 #include "tools/report/gallery_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <iterator>
 
@@ -18,7 +19,7 @@ std::string messages_text(const GalleryWorld& w) {
   if (w.errors > 0) out += fmt::format("<span class=\"bad\">{}</span>", counted(w.errors, "error"));
   if (w.warnings > 0) out += (out.empty() ? "" : ", ") + counted(w.warnings, "warning");
   if (w.lost > 0) out += fmt::format("{}{} lost", out.empty() ? "" : ", ", w.lost);
-  return out.empty() ? "no messages" : out;
+  return out.empty() ? "no messages" : fmt::format("{}: {}", out, fmt::join(w.messages, ", "));
 }
 
 std::string picture_text(const Gallery& g, const GalleryWorld& w) {

@@ -1,7 +1,9 @@
 // A page of many scenes: their pictures and figures.
 #pragma once
 #include <cstdint>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace wrlkit {
@@ -13,6 +15,7 @@ struct GalleryWorld {
   std::string fault;       // why it could not be read; empty: it could
   std::uint64_t triangles = 0, parts = 0, bytes = 0;
   std::size_t errors = 0, warnings = 0, lost = 0;
+  std::set<std::string_view> messages = {};  // the names of these
 };
 
 struct Gallery {

@@ -33,7 +33,7 @@ void check_contents(Session& s) {
 /// Inlines and prototypes are followed, so that what is missing there is reported.
 void check_world(Session& s) {
   check_values(s.world().scene, s.diag());
-  report_undrawn(s.world().scene, s.diag());
+  report_undrawn(s.world().scene, &s.resources(), s.diag());
   report_startup_scripts(s.world().scene, s.diag());
   report_missing_media(s.world().scene, s.resources(), s.diag());
   if (!s.flags().quick) return check_contents(s);
@@ -82,9 +82,7 @@ int run_check(const Flags& flags) {
     if (flags.json || !flags.report.empty()) objects.push_back(json_of(path, s.diag(), readable));
     if (!flags.json && (!flags.quiet || s.diag().has_errors())) print_text(path, s.diag());
   }
-  const auto json = json_of_scenes(*inputs, objects);
-  if (flags.json) print_document(json);
-  if (!flags.report.empty() && !write_text_file(flags.report, json + '\n')) return nothing;
+  if (!give_document(flags, json_of_scenes(*inputs, objects))) return nothing;
   return unreadable == inputs->worlds.size() ? nothing : faulty ? partly : code;
 }
 

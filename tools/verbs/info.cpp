@@ -104,7 +104,8 @@ std::string bounds_text(const Box& b) {
 
 std::string info_text(const std::string& file, const Info& i) {
   const auto& b = i.geometry.bounds;
-  std::string out = fmt::format("{}: {}{}, {} bytes\n", file, to_string(i.format), i.gzip ? " (gzip)" : "", i.bytes);
+  const auto format = i.is_inventor ? std::string_view("Open Inventor") : to_string(i.format);
+  std::string out = fmt::format("{}: {}{}, {} bytes\n", file, format, i.gzip ? " (gzip)" : "", i.bytes);
   const auto& g = i.geometry;
   const auto unique = g.unique == g.triangles ? "" : fmt::format(" ({} unique)", g.unique);
   out += fmt::format("  shapes {}, polygons {}, triangles {}{}, lines {}, points {}\n", g.shapes, g.polygons,
@@ -153,10 +154,8 @@ int info_of_one(const Flags& flags, std::vector<std::string>& objects) {
   if (file && is_patch_file(file->view())) {
     const auto text = patches_info(s, *file);
     if (!text) return unreadable();
-    if (flags.json)
-      objects.push_back(*text);
-    else
-      fmt::print("{}", *text);
+    objects.push_back(*text);
+    if (!flags.json) fmt::print("{}", *text);
     return s.end(true);
   }
   if (!file || !s.document().read(flags.inputs[0], *file)) return unreadable();
@@ -164,10 +163,8 @@ int info_of_one(const Flags& flags, std::vector<std::string>& objects) {
   const auto made = info(std::move(s.document()), {flags.recognise});
   s.progress().clear();
   if (!made) return unreadable();
-  if (flags.json)
-    objects.push_back(info_json(flags.inputs[0], *made, s.diag()));
-  else
-    fmt::print("{}", info_text(flags.inputs[0], *made));
+  objects.push_back(info_json(flags.inputs[0], *made, s.diag()));
+  if (!flags.json) fmt::print("{}", info_text(flags.inputs[0], *made));
   return s.end(true);
 }
 
@@ -181,22 +178,21 @@ int run_info(const Flags& flags) {
     return nothing;
   }
   const auto& worlds = inputs->worlds;
-  if (worlds.size() > 1 && !flags.report.empty()) {
-    fmt::print(stderr, "wrlkit info: --report is about one world\n");
-    return usage;
-  }
   std::size_t unreadable = 0;
   std::vector<std::string> objects;
   int worst = print_left_out("info", inputs->left_out, inputs->passed_over);
   for (const auto& world : worlds) {
     Flags one = flags;
     one.inputs = {world.path};
+    if (inputs->is_list) one.report.clear();
     const int code = info_of_one(one, objects);
     if (code == usage) return code;
     unreadable += code == nothing;
     worst = std::max(worst, code == nothing ? static_cast<int>(partly) : code);
   }
-  if (flags.json) print_document(json_of_scenes(*inputs, objects));
+  const auto json = json_of_scenes(*inputs, objects);
+  if (flags.json && !inputs->is_list) print_document(json);
+  if (inputs->is_list && !give_document(flags, json)) return nothing;
   return unreadable == worlds.size() ? static_cast<int>(nothing) : worst;
 }
 

@@ -67,7 +67,7 @@ int render_sheet(Session& s) {
   const auto contents = contents_json(worlds, drawn);
   s.fact("worlds", contents);
   if (made && f.json) s.print_json(contents);
-  return std::max(code, s.end(made));
+  return s.end(made, nothing, code);
 }
 
 }  // namespace wrlkit

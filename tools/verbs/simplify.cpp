@@ -18,10 +18,12 @@
 #include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world_levels.h"
+#include "passes/expand/expand.h"
 #include "passes/expand_protos/expand_protos.h"
 #include "passes/lod/first_levels.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/session.h"
+#include "tools/verbs/convert.h"
 
 namespace wrlkit {
 namespace {
@@ -39,7 +41,8 @@ std::string stem_of(const std::string& path) {
 bool is_of_no_output(const std::string& path) {
   const auto ending = fs::path(path).extension().string();
   const bool is_like_one =
-      ending.size() >= 4 && ending.size() <= 5 && std::isalpha(static_cast<unsigned char>(ending[1])) != 0;
+      !ending_of(path, scene_endings()).empty() ||
+      (ending.size() >= 4 && ending.size() <= 5 && std::isalpha(static_cast<unsigned char>(ending[1])) != 0);
   return is_like_one && !output_of(path) && !fs::is_directory(path) && path.back() != '/';
 }
 
@@ -72,7 +75,7 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   for (const auto& text : f.errors) {
     const double e = length_of(text);
     if (!(e > 0)) {
-      fmt::print(stderr, "wrlkit simplify: --error: '{}' is not a valid length\n", text);
+      fmt::print(stderr, "wrlkit simplify: --error: '{}' is not a length above 0, such as 2mm, 0.5in or 0.002\n", text);
       return std::nullopt;
     }
     o.errors.push_back(e);
@@ -193,6 +196,7 @@ void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) 
 std::size_t drawn_triangles(Document& as_read, const LoadOptions& load) {
   Diagnostics unheard(as_read.diag().shared_sources());
   Document silent({.scene = as_read.scene()}, PassContext{unheard, as_read.context().stats, as_read.resources()});
+  if (load.show_all) expand(silent.scene(), {}, silent.context());
   if (load.show_all) show_all(silent.scene());
   if (load.run_startup) run_startup(silent.scene(), silent.context());
   const WorldMeshes meshes(silent);
@@ -351,6 +355,7 @@ int run_simplify(const Flags& flags) {
   auto options = world_options_of(flags);
   if (!options || !s.good() || !s.choose_pipeline(standard_pipeline(flags))) return usage;
   if (s.printed_pipeline()) return done;
+  if (output_of(flags.output)) warn_of_idle_options(flags);
   if (!s.read(flags.inputs[0])) return s.end(false);
   Document as_read(s.document().copy());
   if (!s.pipeline().run(s.world().scene, s.context(), s.pipeline_options())) return s.end(false);
@@ -368,7 +373,7 @@ int run_simplify(const Flags& flags) {
     s.print_json(json_of(*options, all));
   else if (names.file != "-")
     print_table(*options, all);
-  return s.end(true);
+  return s.end(true, nothing, all.n_drawn == 0 ? partly : done);
 }
 
 }  // namespace wrlkit

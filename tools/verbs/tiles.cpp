@@ -166,6 +166,8 @@ int run_tiles(const Flags& flags) {
   if (!s.good() || !check_passes(flags) || !check_place(flags.at)) return usage;
   const auto shard = shard_of(flags);
   if (!shard) return usage;
+  if (flags.is_given("draco-level") && flags.save.compress != GltfCompression::Method::draco && !flags.quiet)
+    fmt::print(stderr, "wrlkit tiles: --draco-level has no effect without --compress draco\n");
   int code = done;
   const auto inputs = inputs_of(flags, code);
   if (inputs.empty()) return nothing;
@@ -177,7 +179,7 @@ int run_tiles(const Flags& flags) {
     s.print_json(json_of(made));
   else if (!flags.quiet)
     fmt::print(stderr, "{}", text_of(made, flags.output));
-  return std::max(code, s.end(true));
+  return s.end(true, nothing, code);
 }
 
 }  // namespace wrlkit

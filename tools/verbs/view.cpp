@@ -10,6 +10,7 @@
 #include "base/io/output.h"
 #include "base/io/url.h"
 #include "base/text/json.h"
+#include "convert/missing_files.h"
 #include "convert/placing.h"
 #include "convert/shown_surface.h"
 #include "geometry/progressive/progressive_world.h"
@@ -45,6 +46,15 @@ std::string_view sound_type(std::string_view bytes) {
   return {};
 }
 
+/// A Sound whose file is part of the page.
+bool is_played(const Scene& scene, NodeId sound) {
+  if (!scene.is(sound, nodes::Sound)) return false;
+  const NodeId clip = scene.get(sound, nodes::sound::source);
+  if (!scene.is(clip, nodes::AudioClip)) return false;
+  const auto urls = scene.get(clip, nodes::audio_clip::url);
+  return !urls.empty() && urls[0].starts_with("data:audio/");
+}
+
 class Viewer {
  public:
   explicit Viewer(Session& s) : s_(s) {}
@@ -78,7 +88,8 @@ class Viewer {
     take_scripts(scene);
     take_sounds(scene);
     const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras,
-                              .behaviour = GltfOptions::Behaviour::interactivity};
+                              .behaviour = GltfOptions::Behaviour::interactivity,
+                              .is_understood = [&scene](NodeId n) { return is_played(scene, n); }};
     auto take = [&](std::string_view bytes) { world.glb += bytes; };
     if (!write_glb(scene, counted, options, &s_.resources(), take, s_.diag())) return false;
     const bool usual = s_.flags().criteria.empty();
@@ -106,11 +117,16 @@ class Viewer {
   /// So do sounds, where browsers can play them.
   void take_sounds(Scene& scene) {
     constexpr std::size_t largest = 4 << 20;
+    report_missing_media(scene, s_.resources(), s_.diag());
     for (const NodeId n : all_nodes(scene)) {
       if (!scene.is(n, nodes::AudioClip) || scene.value(n, nodes::audio_clip::url.slot).is) continue;
       const auto file = file_of(scene, n, scene.get(n, nodes::audio_clip::url));
-      const auto type = file ? sound_type(file->bytes) : "";
-      if (type.empty()) continue;
+      if (!file) continue;
+      const auto type = sound_type(file->bytes);
+      if (type.empty()) {
+        s_.diag().report(Diag::sound_not_played, scene.where(n), file->name);
+        continue;
+      }
       if (file->bytes.size() > largest) {
         s_.diag().report(Diag::too_large, scene.where(n), "the sound of an AudioClip", "4 MB", file->bytes.size());
         continue;
@@ -170,6 +186,16 @@ bool can_be_shown(const Flags& f) {
       return false;
     }
   return true;
+}
+
+void warn_of_idle_options(const Flags& flags, bool is_tileset) {
+  const bool has_many = !is_tileset && is_gallery(flags);
+  const auto warn = [&](const char* option, const char* where) {
+    if (flags.is_given(option) && !flags.quiet)
+      fmt::print(stderr, "wrlkit view: --{} has no effect on {}\n", option, where);
+  };
+  if (!has_many) warn("limit", is_tileset ? "a tileset" : "the page of a scene");
+  if (has_many || is_tileset) warn("criteria", is_tileset ? "a tileset" : "a gallery");
 }
 
 /// What went into a page; the keys are stable.
@@ -245,6 +271,7 @@ class LivePage {
 
 int run_view(const Flags& flags) {
   const auto tileset = tileset_folder(flags.inputs);
+  warn_of_idle_options(flags, !tileset.empty());
   if (tileset.empty() && is_gallery(flags)) return view_gallery(flags);
   Session s(flags);
   if (!can_be_shown(flags) || !s.good() || !s.choose_pipeline(world_pipeline)) return usage;

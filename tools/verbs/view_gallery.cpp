@@ -52,10 +52,20 @@ std::string first_error(const Diagnostics& diag) {
   return "nothing could be made of it";
 }
 
+/// Of two readings of one scene the one that says more counts.
+void add_messages(const Diagnostics& diag, GalleryWorld& out) {
+  out.errors = std::max<std::uint64_t>(out.errors, diag.count(Severity::error));
+  out.warnings = std::max<std::uint64_t>(out.warnings, diag.count(Severity::warning));
+  out.lost = std::max<std::uint64_t>(out.lost, diag.count(Severity::lost));
+  for (const auto& m : diag.messages())
+    if (m.severity != Severity::note) out.messages.emplace(info(m.id).name);
+}
+
 void add_figures(const Flags& flags, GalleryWorld& out) {
   Session s(flags);
-  if (!s.read(flags.inputs[0])) return;
+  if (!s.document().read(flags.inputs[0])) return;
   const auto facts = info(std::move(s.document()));
+  add_messages(s.diag(), out);
   if (!facts) return;
   out.triangles = facts->geometry.triangles;
   out.parts = facts->geometry.shapes;
@@ -75,9 +85,7 @@ void add_picture(const Flags& flags, GalleryWorld& out) {
   } else {
     out.fault = first_error(s.diag());
   }
-  out.errors = s.diag().count(Severity::error);
-  out.warnings = s.diag().count(Severity::warning);
-  out.lost = s.diag().count(Severity::lost);
+  add_messages(s.diag(), out);
 }
 
 GalleryWorld look_at(const Flags& flags, const NamedWorld& world) {
@@ -96,7 +104,9 @@ std::string contents_json(const Gallery& g, const std::string& file, std::size_t
     json.object([&] {
       json.members("file", file, "bytes", bytes);
       json.list("worlds", g.worlds, [&](const auto& w) {
-        json.object("name", w.name, "drawn", !w.picture.empty(), "triangles", w.triangles, "errors", w.errors);
+        json.object("name", w.name, "drawn", !w.picture.empty(), "triangles", w.triangles, "errors", w.errors,
+                    "warnings", w.warnings, "lost", w.lost, "messages",
+                    std::vector<std::string>(w.messages.begin(), w.messages.end()));
       });
       json.member("left_out", g.n_left_out);
     });
@@ -105,7 +115,7 @@ std::string contents_json(const Gallery& g, const std::string& file, std::size_t
 
 bool has_place(const Flags& f) {
   if (f.output.empty() || f.serve) {
-    fmt::print(stderr, "wrlkit view: a gallery needs -o FILE, without --serve\n");
+    fmt::print(stderr, "wrlkit view: a gallery is a file: name it with -o FILE, without --serve\n");
     return false;
   }
   return true;
@@ -180,8 +190,7 @@ int view_gallery(const Flags& flags) {
   if (made && flags.json) s.print_json(contents);
   s.fact("page", contents);
   print_faults(gallery);
-  const int code = s.end(made);
-  return made ? std::max({code, exit_code_of(gallery), left_out}) : code;
+  return s.end(made, nothing, std::max(exit_code_of(gallery), left_out));
 }
 
 }  // namespace wrlkit

@@ -121,6 +121,8 @@ struct GltfOptions {
   /// children, as nodes that are not visible.
   enum class Behaviour : std::uint8_t { extras, interactivity };
   Behaviour behaviour = Behaviour::extras;
+  /// Nodes that whoever reads this file draws or plays from extras: they are not reported as lost; none: no node is.
+  std::function<bool(NodeId)> is_understood = {};
   std::size_t max_nodes = 10'000'000;  // each way to a shared node is a node of its own
 };
 template <>

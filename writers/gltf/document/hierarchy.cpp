@@ -244,6 +244,7 @@ std::uint32_t Builder::background(NodeId n, std::span<const NodeId> sky) {
 }
 
 void Builder::add_lost(NodeId n) {
+  if (m_.options.is_understood && m_.options.is_understood(n)) return;
   if (lost_.empty()) first_lost_ = m_.scene.where(n);
   ++lost_[m_.scene.type(n).name];
 }
