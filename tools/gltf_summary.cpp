@@ -36,8 +36,12 @@ std::string summary_text(const GltfSummary& s) {
   size_line(out, "geometry", s.geometry, s.geometry_gzip, s.geometry_shares);
   if (s.pictures > 0) size_line(out, "textures", s.pictures, s.pictures_gzip);
   size_line(out, "together", s.bytes(), s.json_gzip + s.geometry_gzip + s.pictures_gzip);
-  out += fmt::format("  {} nodes, {} names; {} meshes, {} draws, {} triangles\n", grouped(s.nodes), grouped(s.named),
-                     grouped(s.meshes), grouped(s.draws), grouped(s.triangles));
+  const auto of = [](std::uint64_t n, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", grouped(n), n == 1 ? one : many);
+  };
+  out += fmt::format("  {}, {}; {}, {}, {}\n", of(s.nodes, "node", "nodes"), of(s.named, "name", "names"),
+                     of(s.meshes, "mesh", "meshes"), of(s.draws, "draw", "draws"),
+                     of(s.triangles, "triangle", "triangles"));
   if (s.instances > 0) out += fmt::format("  {} instances in tables (EXT_mesh_gpu_instancing)\n", grouped(s.instances));
   if (const auto& r = s.recoding; r.pictures > 0) {
     out += fmt::format("  pictures: {} re-encoded, {} of them resized; {} bytes became {}", grouped(r.pictures),

@@ -16,6 +16,8 @@
 #include "convert/missing_files.h"
 #include "convert/profiles.h"
 #include "convert/startup_scripts.h"
+#include "scenegraph/any_node.h"
+#include "scenegraph/nodes.h"
 #include "tools/cli/outputs.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/recipe.h"
@@ -168,6 +170,17 @@ Saved write_world(Session& s, SaveOptions options, const std::function<void(Scen
   return saved;
 }
 
+/// How light is written that there is not.
+void warn_of_no_light(const Session& s, const Scene& scene) {
+  if (!s.flags().is_given("lightmap-as") || s.flags().quiet || s.runs("lightmap")) return;
+  const auto may_have = [&](NodeId n) {
+    return scene.is(n, nodes::Inline) ||
+           (scene.is(n, nodes::Appearance) && scene.get(n, nodes::appearance::lightmap));
+  };
+  if (!any_node(scene, may_have))
+    fmt::print(stderr, "wrlkit: --lightmap-as has no effect: nothing in the scene has a lightmap; -p lightmap bakes one\n");
+}
+
 int run_convert(const Flags& flags) {
   Session s(flags);
   if (!prepare_conversion(s)) return usage;
@@ -179,7 +192,9 @@ int run_convert(const Flags& flags) {
   warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.good()) return nothing;
-  const auto saved = read_input(s) ? write_world(s, save_options(flags)) : Saved{};
+  const bool is_read = read_input(s);
+  if (is_read) warn_of_no_light(s, s.world().scene);
+  const auto saved = is_read ? write_world(s, save_options(flags)) : Saved{};
   if (saved) backup.keep();
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
