@@ -8,7 +8,7 @@
 namespace wrlkit {
 
 struct Exposure {
-  static constexpr std::string_view type = "number or auto";
+  static constexpr std::string_view type = "number above 0, or auto";
   bool automatic = false;
   double factor = 1;  // on linear light
 

@@ -140,7 +140,8 @@ Image path_picture(const Scene& scene, const MeshSource& source, const drawing::
   }
   if (seen.empty()) return image;
   const double factor = exposure_of(seen, width, image.height);
-  diag.report(Diag::light_exposure, {}, Exposure{.factor = factor}.print(), Exposure{.factor = factor}.print());
+  const auto said = Exposure{.factor = factor}.print();
+  diag.report(Diag::light_exposure, {}, said, "--exposure " + said);
   for (std::size_t i = 0; i < n; ++i) show(seen[i].shown(factor), &image.pixels[i * 3]);
   return image;
 }

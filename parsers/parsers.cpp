@@ -123,6 +123,7 @@ std::string describe_bytes(std::string_view text) {
   if (text.find_first_not_of(std::string_view("\0 \t\r\n", 5)) == text.npos) return "it holds nothing but blanks";
   auto mime = sniff_mime(text);
   if (!mime.empty()) return "it is a picture (" + std::string(mime) + ")";
+  if (text.starts_with("WPW1")) return "it is a progressive stream (.wpm), which pages show and wrlkit does not read";
   const std::string_view line = first_line(text);
   if (!is_plain_text(line)) return "it holds binary data";
   std::string_view shown = line.substr(0, 40);

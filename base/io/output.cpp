@@ -78,6 +78,7 @@ std::string reason(int error, const fs::path& path) {
   }
   if (error == EACCES && !fs::exists(path, ec)) return "permission denied in the folder '" + folder + "'";
   if (error == EACCES) return "permission denied";
+  if (error == ENOSPC && (path.empty() || path == "-")) return "standard output is closed, or its disk is full";
   if (error == ENOSPC) return "the disk is full";
   return std::generic_category().message(error);
 }

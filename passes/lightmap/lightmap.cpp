@@ -187,7 +187,7 @@ class ViewExposure {
     }
     factor_ = meter.factor(light_of_middle_grey);
     const std::string said = Exposure{.factor = factor_}.print();
-    ctx.diag.report(Diag::light_exposure, {}, said, said);
+    ctx.diag.report(Diag::light_exposure, {}, said, "exposure=" + said);
     ctx.stats["lightmap.exposure-thousandths"] += static_cast<std::uint64_t>(std::lround(1000 * factor_));
     return factor_;
   }

@@ -110,8 +110,14 @@ GivenOptions given_options(const CLI::App& verb) {
 
 /// In our words where CLI11 lists the last one first.
 std::string what_is_wrong(const CLI::ParseError& fault, const CLI::App& app) {
-  if (dynamic_cast<const CLI::ExtrasError*>(&fault))
-    return fmt::format("more arguments than it takes: '{}'", fmt::join(app.remaining(true), "' '"));
+  if (dynamic_cast<const CLI::ExtrasError*>(&fault)) {
+    constexpr std::size_t most = 3;
+    auto more = app.remaining(true);
+    const auto n_left_out = more.size() - std::min(most, more.size());
+    more.resize(more.size() - n_left_out);
+    return fmt::format("more arguments than it takes: '{}'{}", fmt::join(more, "' '"),
+                       n_left_out > 0 ? fmt::format(" and {} more", n_left_out) : "");
+  }
   const std::string what = fault.what();
   return what.substr(0, what.find_last_not_of(".\n") + 1);
 }
@@ -199,6 +205,8 @@ bool takes_inputs(const Flags& flags, const Verb& verb) {
       return "is a url; wrlkit reads local files, so give the path of one";
     if (is_of_one && path.find_first_of("*?") != path.npos && !fs::exists(path, none))
       return "is a pattern; wrlkit corpus run works on all scenes that match";
+    if (is_of_one && path.starts_with('@') && !fs::exists(path, none))
+      return "is a list; wrlkit corpus run works on all scenes in it";
     if (!is_of_one || !fs::is_directory(path, none)) return "";
     return verb.name == std::string_view("convert") || verb.name == std::string_view("optimize")
                ? "is a folder; wrlkit corpus run works on all scenes in folders"

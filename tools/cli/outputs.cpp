@@ -64,7 +64,8 @@ bool has_ending(std::string_view name, std::string_view endings) {
 /// Devices and pipes are written to whatever their names are.
 bool is_special(const std::string& path) {
   std::error_code fault;
-  return path == "-" || (fs::exists(path, fault) && !fs::is_regular_file(path, fault));
+  return path == "-" ||
+         (fs::exists(path, fault) && !fs::is_regular_file(path, fault) && !fs::is_directory(path, fault));
 }
 
 bool fits(const NamedOutput& output) {

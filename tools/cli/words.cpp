@@ -118,8 +118,14 @@ std::string in_our_words(const std::string& what) {
     return fmt::format("{}: '{}' is not a valid value{}", *option, *text,
                        is_list ? "; commas separate the values of a list: 1,2,3" : "");
   }
+  if (const auto option = between(what, "", ": 1 required "); option && what.ends_with(" missing"))
+    return *option + ": a value is missing";
   const auto value = between(what, "Value ", " not in range "), least = between(what, " not in range ", " to "),
              most = between(what, " to ", "");
+  double number = 0;
+  if (value && read_number(std::string_view(*value), number) && number >= 1 &&
+      value->find_first_of(".eE") != value->npos)
+    return fmt::format("{}{} is not a whole number", what.substr(0, what.find("Value ")), *value);
   if (value && least && most)
     return fmt::format("{}{} is not in the range {} to {}", what.substr(0, what.find("Value ")), *value,
                        plain_number(*least), plain_number(*most));

@@ -58,6 +58,12 @@ std::string shell_word(const std::string& word) {
   return out + '\'';
 }
 
+/// A name in a table: as a shell reads it, where it would break the line or the column.
+std::string in_one_field(const std::string& name) {
+  const auto breaks = [](unsigned char c) { return c < ' ' || c == 0x7f; };
+  return std::ranges::any_of(name, breaks) ? shell_word(name) : name;
+}
+
 /// "SIGABRT (Aborted)".
 std::string signal_text(int signal) {
   const char* name = sigabbrev_np(signal);
@@ -87,6 +93,10 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
     complain(verb, why);
     return std::nullopt;
   };
+  if (flags.output == "-") {
+    why = "-o: a folder is needed; standard output is none";
+    return fail();
+  }
   if (!flags.shard.empty()) {
     const auto shard = parse_shard(flags.shard, why);
     if (!shard) return fail();
@@ -411,8 +421,8 @@ bool give_plan(const Planned& p, const Flags& flags) {
     json.object("shard", job.shard + 1, "seconds", job.cost, "bytes", job.input.bytes, "input", job.input.path,
                 "output", output);
     if (!flags.json)
-      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes, job.input.path,
-                 output);
+      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes,
+                 in_one_field(job.input.path), in_one_field(output));
   }
   json.end_array();
   return give_document(flags, json_text);

@@ -41,8 +41,8 @@ void check_world(Session& s) {
   if (auto p = Pipeline::parse("lower-vrml1,expand", why)) p->run(s.world().scene, s.context());
 }
 
-void print_text(const std::string& path, const Diagnostics& d) {
-  fmt::print("{}", messages_text(d, isatty(STDOUT_FILENO) != 0, false));
+void print_text(const std::string& path, const Diagnostics& d, bool quiet) {
+  fmt::print("{}", messages_text(d, isatty(STDOUT_FILENO) != 0, quiet));
   fmt::print("{}: {}, {}\n", path, counted(d.count(Severity::error), "error"),
              counted(d.count(Severity::warning), "warning"));
 }
@@ -80,7 +80,7 @@ int run_check(const Flags& flags) {
     unreadable += !readable;
     faulty += s.diag().has_errors();
     if (flags.json || !flags.report.empty()) objects.push_back(json_of(path, s.diag(), readable));
-    if (!flags.json && (!flags.quiet || s.diag().has_errors())) print_text(path, s.diag());
+    if (!flags.json && (!flags.quiet || s.diag().has_errors())) print_text(path, s.diag(), flags.quiet);
   }
   if (!give_document(flags, json_of_scenes(*inputs, objects))) return nothing;
   return unreadable == inputs->worlds.size() ? nothing : faulty ? partly : code;

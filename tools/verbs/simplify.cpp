@@ -22,6 +22,7 @@
 #include "passes/expand_protos/expand_protos.h"
 #include "passes/lod/first_levels.h"
 #include "tools/cli/lengths.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
 #include "tools/verbs/convert.h"
 
@@ -107,7 +108,7 @@ int write_progressive_file(Session& s, Criterion criterion, const std::string& p
   if (s.flags().json) {
     s.print_json(wrlkit::json_of(json_object("file", path, "surfaces", surfaces.size(), "bytes", bytes.size())));
   } else {
-    fmt::print("{}: {} surfaces, {} bytes\n", path, surfaces.size(), bytes.size());
+    fmt::print("{}: {}, {} bytes\n", path, counted(surfaces.size(), "surface"), bytes.size());
   }
   return s.end(true);
 }

@@ -162,6 +162,10 @@ bool check_place(const std::vector<double>& at) {
 }  // namespace
 
 int run_tiles(const Flags& flags) {
+  if (flags.output == "-") {
+    fmt::print(stderr, "wrlkit tiles: -o: a folder is needed; standard output is none\n");
+    return usage;
+  }
   Session s(flags);
   if (!s.good() || !check_passes(flags) || !check_place(flags.at)) return usage;
   const auto shard = shard_of(flags);
