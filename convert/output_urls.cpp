@@ -33,7 +33,8 @@ void OutputUrls::report_not_embedded(const std::string& copy, Span where, UrlUse
 
 std::optional<std::string> OutputUrls::data_of(std::string_view url, Span where) {
   auto& resources = *writing_.context.resources;
-  if (resources.target(url, where, *writing_.scene.sources).kind != UrlTarget::Kind::file) return std::nullopt;
+  const bool is_file = resources.target(url, where, *writing_.scene.sources).kind == UrlTarget::Kind::file;
+  if (!is_file && !resources.find_made(url)) return std::nullopt;
   const auto picture = resources.bytes({&url, 1}, where, writing_.context.diag);
   if (!picture || picture->mime.empty()) return std::nullopt;
   return data_url(picture->mime, picture->bytes);

@@ -32,8 +32,11 @@ std::vector<std::string> led_urls(const Scene& scene, Span where, std::span<cons
                                   const UrlLeads& leads) {
   std::vector<std::string> led(urls.begin(), urls.end());
   if (leads.place && std::ranges::any_of(urls, is_made)) {
-    for (auto& url : led)
-      if (is_made(url)) url = leads.place(url);
+    for (auto& url : led) {
+      if (!is_made(url)) continue;
+      auto data = leads.copy ? leads.copy(url, where, use) : std::nullopt;  // of --embed
+      url = data ? std::move(*data) : leads.place(url);
+    }
     return led;
   }
   const fs::path prefix = prefix_of(scene, where, leads.file);

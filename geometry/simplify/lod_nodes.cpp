@@ -44,8 +44,9 @@ std::vector<double> lod_ranges(double radius, std::span<const double> errors, co
   std::vector<double> out;
   for (const double error : errors) out.push_back(radius + error / budget.pixels * budget.per_pixel());
   if (budget.vanish > 0) out.push_back(radius + 2 * radius / budget.vanish * budget.per_pixel());
+  constexpr double farthest = 1e30;
   double least = 0;
-  for (auto& r : out) least = r = round_up(std::max(r, least * 1.001));
+  for (auto& r : out) least = r = round_up(std::max(std::min(r, farthest), least * 1.001));
   return out;
 }
 

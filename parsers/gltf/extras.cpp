@@ -53,12 +53,13 @@ std::pair<std::string_view, std::string_view> split(std::string_view s) {
   return point == s.npos ? std::pair{s, std::string_view{}} : std::pair{s.substr(0, point), s.substr(point + 1)};
 }
 
-/// Fields are written by their names in VRML97. `true` and `false` are never of a field that no type has: its values
-/// are texts and numbers. So they are of one that only X3D has.
-std::optional<std::uint16_t> slot_named(const NodeType& type, std::string_view name) {
-  if (const auto slot = type.find(name, Dialect::vrml97)) return slot;
-  const auto slot = type.find(name, Dialect::x3d);
-  return slot && type.fields[*slot].type == FieldType::SFBool ? slot : std::nullopt;
+/// Fields are written by their names in VRML97. Those that a world of VRML97 has and its types do not are written as
+/// text or as nodes; all others are fields that only X3D has.
+std::optional<std::uint16_t> slot_named(const NodeType& type, Json field) {
+  if (const auto slot = type.find(field.key(), Dialect::vrml97)) return slot;
+  const auto slot = type.find(field.key(), Dialect::x3d);
+  const bool may_be_unknown = field["verbatim"] || (slot && info(type.fields[*slot].type).element == Element::node);
+  return may_be_unknown ? std::nullopt : slot;
 }
 
 }  // namespace
@@ -273,7 +274,7 @@ void Extras::fields(NodeId n, Json all, Children& children) {
       is_proto ? proto_values(n, f) : declare_fields(n, f);
       continue;
     }
-    auto slot = slot_named(c_.scene.type(n), f.key());
+    auto slot = slot_named(c_.scene.type(n), f);
     if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) {
       bad(f, "a field");
       continue;
@@ -292,7 +293,7 @@ void Extras::fields(NodeId n, Json all, Children& children) {
 void Extras::plain_fields(NodeId n, Json all) {
   Children none_;
   for (Json f : all.is_object() ? all : Json()) {
-    auto slot = slot_named(c_.scene.type(n), f.key());
+    auto slot = slot_named(c_.scene.type(n), f);
     if (!slot || info(c_.scene.type(n).fields[*slot].type).element == Element::node) continue;
     if (auto v = value(c_.scene.type(n).fields[*slot].type, *slot, f, none_)) c_.scene.set(n, *v);
   }
@@ -336,7 +337,7 @@ void Extras::define(NodeId n) {
 }
 
 NodeId Extras::named(std::string_view name) const {
-  auto i = names_.find(std::string(name));
+  auto i = names_.find(legal_name(name));  // as set_name has made it
   return i == names_.end() ? NodeId{} : i->second;
 }
 

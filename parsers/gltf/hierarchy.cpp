@@ -188,9 +188,11 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const TransformFields& plac
   const Json json = c_.file.at(Table::nodes, n);
   const TypeId type = extras_.type(fields.key(), fields);
   NodeId made = c_.add(type, fields);
-  const bool viewpoint = type == nodes::Viewpoint, shape_ = type == nodes::Shape;
+  const bool viewpoint = type == nodes::Viewpoint || type == nodes::OrthoViewpoint, shape_ = type == nodes::Shape;
   if (shape_) {
     if (auto parts = shapes(n, place); !parts.empty()) made = parts[0];
+  } else if (type == nodes::OrthoViewpoint) {
+    orthographic_camera(made, json, place);
   } else if (viewpoint) {
     made = camera(json, place);
   } else if (type == nodes::PointLight || type == nodes::DirectionalLight || type == nodes::SpotLight) {
@@ -426,6 +428,16 @@ NodeId Hierarchy::camera(Json node, const TransformFields& place) {
   if (!title.empty()) c_.scene.set(n, f::description, title);
   c_.lost.keep(c_.file, camera);
   return n;
+}
+
+/// The window of glTF is around the middle: one that is not has its position moved.
+void Hierarchy::orthographic_camera(NodeId n, Json node, const TransformFields& place) {
+  namespace f = nodes::ortho_viewpoint;
+  const Json seen = c_.file.at(Table::cameras, c_.file.index(Table::cameras, node["camera"]))["orthographic"];
+  const double x = seen["xmag"].number(1), y = seen["ymag"].number(1);
+  if (place.translation != Vec3{0, 0, 10}) c_.scene.set(n, f::position, place.translation);
+  if (place.rotation[3] != 0) c_.scene.set(n, f::orientation, place.rotation);
+  if (x != 1 || y != 1) c_.scene.set(n, f::fieldOfView, std::vector<double>{-x, -y, x, y});
 }
 
 /// Location and direction, as far as the type has them.

@@ -69,6 +69,21 @@ bool shines_as_picture(Json material) {
          vector<3>(material["emissiveFactor"], black) == white;
 }
 
+/// Linear.
+Vec3 emission_of(Json material) {
+  Vec3 out = vector<3>(material["emissiveFactor"], black);
+  const double strength = material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number(1);
+  for (double& e : out) e *= strength;
+  return out;
+}
+
+/// The field for a picture that is multiplied by the colour.
+std::uint16_t picture_slot(const Scene& scene, NodeId material) {
+  return scene.is(material, nodes::Material)           ? nodes::material::diffuseTexture.slot
+         : scene.is(material, nodes::PhysicalMaterial) ? nodes::physical_material::baseTexture.slot
+                                                       : nodes::unlit_material::emissiveTexture.slot;
+}
+
 Json lightmap_of(Json material) {
   const Json moz = material["extensions"]["MOZ_lightmap"];
   if (moz) return moz;
@@ -131,24 +146,24 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
       }
   NodeId material = material_node(m, s, look);
   const bool multiplied = picture && material && is_multiplied(m, s, material);
-  if (multiplied)
-    c_.scene.set(material,
-                 c_.scene.make(FieldType::SFNode,
-                               c_.scene.is(material, nodes::Material) ? nodes::material::diffuseTexture.slot
-                                                                      : nodes::unlit_material::emissiveTexture.slot,
-                               picture));
+  if (multiplied) c_.scene.set(material, c_.scene.make(FieldType::SFNode, picture_slot(c_.scene, material), picture));
   // What has no name of its own is called by that of the Material, or of the Appearance; wrlkit says which.
   const bool apart = c_.file.is_own() && (material || c_.file.is_whole());
   const Json name = apart ? extras["Appearance"]["DEF"] : m["name"];
   if (material && apart && name.text() != m["name"].text()) {
     c_.set_name(material, m["name"]);
-    material = same_named(material, nodes::Material);
+    material = same_named(material, c_.scene.type_id(material));
   }
-  if (!material && !picture && !name) return look;
+  if (!material && !picture && !name && !extras["Appearance"]) return look;
   look.appearance = c_.add(nodes::Appearance, m);
   if (material) c_.scene.set(look.appearance, nodes::appearance::material, material);
   if (picture && !multiplied) c_.scene.set(look.appearance, nodes::appearance::texture, picture);
   if (transform) c_.scene.set(look.appearance, nodes::appearance::textureTransform, transform);
+  if (const Json alpha = extras["Appearance"]["alphaMode"]; alpha && c_.file.is_whole()) {
+    c_.scene.set(look.appearance, nodes::appearance::alphaMode, alpha.text());
+    if (const Json cutoff = m["alphaCutoff"])
+      c_.scene.set(look.appearance, nodes::appearance::alphaCutoff, cutoff.number(0.5));
+  }
   if (s.light) set_light(look.appearance, m);
   c_.set_name(look.appearance, name);
   look.appearance = same_named(look.appearance, nodes::Appearance);
@@ -156,13 +171,13 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
   if (picture) extras_.define(picture);
   if (transform) extras_.define(transform);
   extras_.define(look.appearance);
-  if (!c_.file.is_own()) report_lost(m);
+  if (!c_.file.is_whole()) report_lost(m);
   return look;
 }
 
 /// glTF multiplies a picture by the colour, VRML97 shows the picture: then it is one of the material, as in X3D 4.0.
 bool Materials::is_multiplied(Json m, SurfaceKind s, NodeId material) const {
-  const bool unlit = c_.scene.is(material, nodes::UnlitMaterial);
+  const bool unlit = !c_.scene.is(material, nodes::Material);  // or physical
   if (c_.file.is_whole()) return unlit || vrml97(m)["multiplied"].boolean();
   const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
   return (s.color && !c_.file.is_own()) || unlit || Vec3{factor[0], factor[1], factor[2]} != white;
@@ -183,28 +198,70 @@ NodeId Materials::same_named(NodeId n, TypeId type) {
 
 NodeId Materials::material_node(Json m, SurfaceKind s, Look& look) {
   const bool unlit = bool(m["extensions"]["KHR_materials_unlit"]), own = c_.file.is_whole();
-  const Json extras = vrml97(m)["Material"];
+  const Json extras = vrml97(m)["Material"], physical = vrml97(m)["PhysicalMaterial"];
   const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
   const Vec3 rgb{factor[0], factor[1], factor[2]};
+  if (own && physical && s.faces) return physical_node(m, physical, s, look);
   if (s.color && !own) look.color_factor = rgb;
   // Unlit and white, of its Color, or of its picture: that is a Shape without a Material (tables 4.5 and 4.6).
   const bool plain = rgb == white || s.color || look.textured;
-  if ((unlit || !s.faces) && plain && factor[3] >= 1 && !extras) {
-    if (!look.textured || (rgb == white && (own || !s.color))) return {};
+  if ((unlit || !s.faces) && plain && (factor[3] >= 1 || look.textured) && !extras) {
+    if (factor[3] >= 1 && (!look.textured || (rgb == white && (own || !s.color)))) return {};
+    namespace u = nodes::unlit_material;
     const NodeId n = c_.add(nodes::UnlitMaterial, m);
-    set(c_.scene, n, nodes::unlit_material::emissiveColor, s.color ? white : display_color(rgb));
+    set(c_.scene, n, u::emissiveColor, s.color ? white : display_color(rgb));
+    set(c_.scene, n, u::transparency, transparency_of(m, look));
     return n;
   }
   NodeId n = c_.add(nodes::Material, m);
   if (s.light && shines_as_picture(m)) {
     c_.scene.set(n, nodes::material::diffuseColor, white);
-    set_transparency(n, m, look);
+    set(c_.scene, n, nodes::material::transparency, transparency_of(m, look));
     return n;
   }
   set_color(n, m, s, look);
   if (s.faces && !unlit && !own) set_highlight(n, m);
+  if (own && s.faces && !unlit) set_further_pictures(n, m);
   if (own) extras_.fields(n, extras);
   return n;
+}
+
+/// Of the metal and roughness of glTF, whose colours are linear, as its own.
+NodeId Materials::physical_node(Json m, Json kept, SurfaceKind s, const Look& look) {
+  namespace p = nodes::physical_material;
+  const Json pbr = m["pbrMetallicRoughness"];
+  const auto factor = vector<4>(pbr["baseColorFactor"], {1, 1, 1, 1});
+  const NodeId n = c_.add(nodes::PhysicalMaterial, m);
+  if (!s.color) set(c_.scene, n, p::baseColor, Vec3{factor[0], factor[1], factor[2]});
+  set(c_.scene, n, p::emissiveColor, emission_of(m));
+  set(c_.scene, n, p::metallic, unit_range(pbr["metallicFactor"].number(1)));
+  set(c_.scene, n, p::roughness, unit_range(pbr["roughnessFactor"].number(1)));
+  set(c_.scene, n, p::transparency, transparency_of(m, look));
+  set_further_pictures(n, m);
+  extras_.fields(n, kept);
+  return n;
+}
+
+/// Those that X3D 4.0 has by the names of glTF.
+void Materials::set_further_pictures(NodeId n, Json m) {
+  const auto slot_of = [&](std::string_view field) { return c_.scene.type(n).find(field, Dialect::x3d); };
+  const auto put = [&](std::string_view field, Json info) {
+    const auto index = info ? c_.file.index(Table::textures, info["index"]) : none;
+    const NodeId picture = index == none || !slot_of(field) ? NodeId{} : texture(index);
+    if (!picture) return;
+    c_.scene.set(n, c_.scene.make(FieldType::SFNode, *slot_of(field), picture));
+    extras_.define(picture);
+  };
+  const auto put_factor = [&](std::string_view field, Json factor) {
+    if (factor && slot_of(field)) c_.scene.set(n, c_.scene.make(FieldType::SFFloat, *slot_of(field), factor.number(1)));
+  };
+  put("normalTexture", m["normalTexture"]);
+  const bool is_light = m["extras"]["lightmap"]["linear"].boolean();
+  if (!is_light) put("occlusionTexture", m["occlusionTexture"]);
+  if (!shines_as_picture(m)) put("emissiveTexture", m["emissiveTexture"]);
+  put("metallicRoughnessTexture", m["pbrMetallicRoughness"]["metallicRoughnessTexture"]);
+  put_factor("normalScale", m["normalTexture"]["scale"]);
+  if (!is_light) put_factor("occlusionStrength", m["occlusionTexture"]["strength"]);
 }
 
 void Materials::set_color(NodeId n, Json m, SurfaceKind s, Look& look) {
@@ -219,23 +276,20 @@ void Materials::set_color(NodeId n, Json m, SurfaceKind s, Look& look) {
     if (said) set(c_.scene, n, f::emissiveColor, base);
   } else {
     if (said) set(c_.scene, n, f::diffuseColor, base);
-    Vec3 emissive = vector<3>(m["emissiveFactor"], black);
-    const double strength = m["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number(1);
-    for (double& e : emissive) e *= strength;
     // A picture of what shines is lost: its factor would make all of the surface shine.
-    if (!m["emissiveTexture"]) set(c_.scene, n, f::emissiveColor, display_color(emissive));
+    if (!m["emissiveTexture"] || own) set(c_.scene, n, f::emissiveColor, display_color(emission_of(m)));
   }
-  set_transparency(n, m, look);
+  set(c_.scene, n, f::transparency, transparency_of(m, look));
 }
 
-void Materials::set_transparency(NodeId n, Json m, const Look& look) {
-  namespace f = nodes::material;
+double Materials::transparency_of(Json m, const Look& look) {
   const auto factor = vector<4>(m["pbrMetallicRoughness"]["baseColorFactor"], {1, 1, 1, 1});
   const auto mode = m["alphaMode"].text("OPAQUE");
   double alpha = mode == "OPAQUE" ? 1 : unit_range(factor[3]);
-  if (mode == "MASK" && !look.textured) alpha = alpha >= m["alphaCutoff"].number(0.5) ? 1 : 0;
+  const bool is_cut_as_said = bool(vrml97(m)["Appearance"]["alphaMode"]);  // by alphaCutoff of X3D
+  if (mode == "MASK" && !look.textured && !is_cut_as_said) alpha = alpha >= m["alphaCutoff"].number(0.5) ? 1 : 0;
   const auto single = static_cast<float>(alpha);
-  set(c_.scene, n, f::transparency, shortest(1 - alpha, [&](double d) { return static_cast<float>(1 - d) == single; }));
+  return shortest(1 - alpha, [&](double d) { return static_cast<float>(1 - d) == single; });
 }
 
 void Materials::set_highlight(NodeId n, Json m) {

@@ -54,7 +54,9 @@ class Materials {
   Look make(std::uint32_t material, SurfaceKind);
   NodeId material_node(Json, SurfaceKind, Look&);
   void set_color(NodeId material, Json, SurfaceKind, Look&);
-  void set_transparency(NodeId material, Json, const Look&);
+  NodeId physical_node(Json, Json kept, SurfaceKind, const Look&);
+  void set_further_pictures(NodeId material, Json);
+  static double transparency_of(Json, const Look&);
   void set_highlight(NodeId material, Json);
   NodeId texture(std::uint32_t index);
   NodeId make_texture(Json);

@@ -26,6 +26,12 @@ bool without_alpha(std::vector<double>& v) {
   return clear;
 }
 
+/// To colours as they are displayed, of three or four numbers each; alpha stays.
+void to_display(std::vector<double>& colors, std::size_t width) {
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    if (i % width < 3) colors[i] = display(static_cast<float>(colors[i]));
+}
+
 /// VRML counts places in pictures from the bottom.
 double from_top(double t) { return std::round((1 - t) * 1e9) / 1e9; }
 
@@ -178,7 +184,9 @@ NodeId Meshes::attribute(TypeId type, std::uint16_t slot, FieldType field, Strea
   NodeId unshared;
   NodeId& known = loose ? unshared : attributes_[{type.value, s.accessor, variant}];
   if (known) return known;
-  const auto widths = type == nodes::TextureCoordinate ? two : type == nodes::Color ? color_widths : three;
+  const auto widths = type == nodes::TextureCoordinate                   ? two
+                      : type == nodes::Color || type == nodes::ColorRGBA ? color_widths
+                                                                         : three;
   auto values = s.values;
   if (values.empty()) {
     auto read = c_.accessors.numbers(s.accessor, widths);
@@ -193,6 +201,14 @@ NodeId Meshes::attribute(TypeId type, std::uint16_t slot, FieldType field, Strea
 }
 
 NodeId Meshes::color_of(const Primitive& p, Streams& s, const Look& look, int variant) {
+  const bool has_alpha = s.color.width == 4 || c_.file.at(Table::accessors, s.color.accessor)["type"].text() == "VEC4";
+  if (has_alpha && c_.file.at(Table::materials, p.material)["alphaMode"].text() == "BLEND")
+    return attribute(nodes::ColorRGBA, nodes::color_rgba::color.slot, FieldType::MFColorRGBA, s.color, variant, s.loose,
+                     [&](std::vector<double>& v) {
+                       for (std::size_t i = 0; i < v.size(); ++i)
+                         if (i % 4 < 3) v[i] *= look.color_factor[i % 4];
+                       to_display(v, 4);
+                     });
   auto change = [&](std::vector<double>& v) {
     if (s.color.width == 4 && without_alpha(v)) c_.lost.add("alpha of COLOR_0", c_.file.where(p.json));
     for (std::size_t i = 0; i < v.size(); ++i) v[i] = display(static_cast<float>(v[i] * look.color_factor[i % 3]));
@@ -310,8 +326,12 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
   }
   for (std::size_t i = 1; i < s.light.values.size(); i += 2)
     s.light.values[i] = finite_decimal(static_cast<float>(1 - s.light.values[i]));
-  if (s.color.width == 4) without_alpha(s.color.values);
-  for (double& v : s.color.values) v = display(static_cast<float>(v));
+  // Lines and points of VRML have no alpha.
+  if (s.color.width == 4 && !p.faces()) {
+    if (without_alpha(s.color.values)) c_.lost.add("alpha of COLOR_0", c_.file.where(p.json));
+    s.color.width = 3;
+  }
+  to_display(s.color.values, s.color.width == 4 ? 4 : 3);
   const TypeId type = p.faces()               ? nodes::IndexedFaceSet
                       : p.mode == points_mode ? nodes::PointSet
                                               : nodes::IndexedLineSet;
@@ -406,9 +426,13 @@ void Meshes::own_faces(NodeId n, const Primitive& p, const Streams& s, const std
   NodeId coord = c_.add(nodes::Coordinate, p.json);
   scene.set(coord, nodes::coordinate::point, points_.values);
   scene.set(n, f::coord, coord);
-  if (s.color)
+  const bool per_vertex = kept["colorPerVertex"].boolean(true);
+  if (s.color && s.color.width == 4)
+    add(nodes::ColorRGBA, FieldType::MFColorRGBA, nodes::color_rgba::color.slot, f::color.slot, f::colorIndex.slot,
+        join(s.color.values, 4), per_vertex);
+  else if (s.color)
     add(nodes::Color, FieldType::MFColor, nodes::color::color.slot, f::color.slot, f::colorIndex.slot,
-        join(s.color.values, 3), kept["colorPerVertex"].boolean(true));
+        join(s.color.values, 3), per_vertex);
   if (s.normal && kept["normal"])
     add(nodes::Normal, FieldType::MFVec3f, nodes::normal::vector.slot, f::normal.slot, f::normalIndex.slot,
         join(s.normal.values, 3), kept["normalPerVertex"].boolean(true));

@@ -118,7 +118,7 @@ geometries. The result is the same for any number of threads.)";
     f("cell-triangles", cell_triangles, "with scope=world: maximum number of triangles of a cell", at_least(1));
     f("errors", errors, "instead of ratios: maximum distance of each further level from the first");
     f("criterion", criterion, CriterionName::help());
-    f("pixels", pixels, "error on the screen, in pixels, at which a level is shown", at_least(0));
+    f("pixels", pixels, "error on the screen, in pixels, at which a level is shown", at_least(0.001));
     f("screen-height", screen_height, "height of the screen, in pixels", at_least(1));
     f("field-of-view", field_of_view, "vertical field of view, in radians", between(0.001, 3.141));
     f("vanish", vanish,

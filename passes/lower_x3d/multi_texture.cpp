@@ -61,8 +61,8 @@ Rgba sample(const Sheet& sheet, double s, double t) {
     const int dx = corner & 1, dy = corner >> 1;
     const double weight = (dx ? u : 1 - u) * (dy ? v : 1 - v);
     if (weight <= 0) continue;
-    const Rgba p = pixel(image, wrapped(left + dx, image.width, sheet.sampler.s),
-                         wrapped(top + dy, image.height, sheet.sampler.t));
+    const Rgba p = pixel(image, wrapped(column + dx, image.width, sheet.sampler.s),
+                         wrapped(row + dy, image.height, sheet.sampler.t));
     for (std::size_t i = 0; i < 4; ++i) out[i] += weight * p[i];
   }
   return out;

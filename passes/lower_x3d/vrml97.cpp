@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <span>
+#include <string>
 
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/texture_background.h"
 #include "scenegraph/equal.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
@@ -32,6 +36,7 @@ class Vrml97Lowering {
     for (NodeId n : all) foreign_node(n);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) interface(ProtoId{i});
     for_each_scope(scene_, [&](Scope& s) { routes(s); });
+    if (scene_.format != Format::vrml97) names(all);
     report();
     return head() || changed_;
   }
@@ -40,6 +45,24 @@ class Vrml97Lowering {
   bool builtin(NodeId n) const { return scene_.type(n).kind == NodeKind::builtin; }
   bool foreign(NodeId n) const {
     return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97) && !scene_.type(n).is_own();
+  }
+
+  /// XML has names that VRML97 has not: Cube.001. Those of VRML97 files, which other readers take, stay.
+  void names(std::span<const NodeId> all) {
+    std::set<std::string, std::less<>> taken;
+    for (NodeId n : all) taken.emplace(scene_.name(n));
+    std::map<std::string, std::string, std::less<>> renamed;
+    for (NodeId n : all) {
+      const std::string old(scene_.name(n));
+      if (old.empty() || is_legal_name(old)) continue;
+      auto& name = renamed[old];
+      const bool is_first = name.empty();
+      if (is_first) name = legal_name(old);
+      for (int k = 2; is_first && !taken.insert(name).second; ++k) name = legal_name(old) + "_" + std::to_string(k);
+      if (is_first) diag_.report(Diag::name_changed, scene_.where(n), old, name);
+      scene_.set_name(n, name);
+      changed_ = true;
+    }
   }
 
   void color(NodeId n) {

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/math/digits.h"
 #include "base/text/amounts.h"
@@ -159,6 +161,36 @@ CLI::Validator a_criterion() {
           one_of(criterion_names()).get_description()};
 }
 
+CLI::Validator a_number() {
+  const auto fault = [](const std::string& text) {
+    double v = 0;
+    return read_number(std::string_view(text), v) && std::isfinite(v) ? "" : "'" + text + "' is not a number";
+  };
+  return {fault, ""};
+}
+
+CLI::Validator a_number_within(double least, double most) {
+  const auto fault = [=](const std::string& text) {
+    double v = 0;
+    if (read_number(std::string_view(text), v) && v >= least && v <= most) return std::string();
+    const bool is_open = most == std::numeric_limits<double>::max();
+    return fmt::format("'{}' is not a number {}", text,
+                       is_open ? fmt::format("of at least {}", least) : fmt::format("from {} to {}", least, most));
+  };
+  const bool is_open = most == std::numeric_limits<double>::max();
+  return {fault, is_open ? fmt::format("at least {}", least) : fmt::format("{} to {}", least, most)};
+}
+
+CLI::Validator a_number_above_0() {
+  const auto fault = [](const std::string& text) {
+    double v = 0;
+    return read_number(std::string_view(text), v) && v > 0 && std::isfinite(v)
+               ? ""
+               : "'" + text + "' is not a number above 0";
+  };
+  return {fault, "above 0"};
+}
+
 CLI::Validator a_share() {
   const auto read = [](std::string& text) {
     const std::string given = text;
@@ -239,13 +271,17 @@ void pictures(CLI::App& verb, Flags& f) {
   verb.add_option("--viewpoint", f.viewpoint, "description or DEF name of a Viewpoint")
       ->check([](const std::string& s) { return s.empty() ? "the name of a Viewpoint is missing" : ""; }, "", "");
   verb.add_flag("--fit", f.fit, "show the whole scene instead of using a Viewpoint");
-  verb.add_option("--look-at", f.look_at, "eye, target and up vector: nine numbers")->expected(9)->delimiter(',');
+  verb.add_option("--look-at", f.look_at, "eye, target and up vector: nine numbers")
+      ->expected(9)
+      ->delimiter(',')
+      ->check(a_number());
   verb.add_option("--background", f.background, "background colour: three numbers from 0 to 1")
       ->expected(3)
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(a_number_within(0, 1));
   AddOption{verb}("headlight", f.headlight, "light at the camera");
   verb.add_option("--field-of-view", f.field_of_view, "field of view along the shorter side of the picture, in degrees")
-      ->check(CLI::Range(0.1, 179.0));
+      ->check(a_number_within(0.1, 179));
   AddOption{verb}("mode", f.mode, "what is drawn");
   AddOption{verb}("lamps", f.lamps, "--mode path: how the light of PointLights and SpotLights decreases with distance");
   verb.add_option("--exposure", f.exposure,
@@ -306,6 +342,7 @@ void tiles(CLI::App& verb, Flags& f) {
                   "position of the origin on the Earth: latitude and longitude in degrees, metres above the ellipsoid, "
                   "and optionally the heading of -z, in degrees from north towards east")
       ->delimiter(',')
+      ->check(a_number())
       ->type_name("LAT,LON,HEIGHT[,HEADING]");
   constexpr std::string_view of_content[] = {"compress",       "tolerance",       "draco-level",
                                              "texture-format", "texture-quality", "texture-size"};

@@ -22,6 +22,12 @@ CLI::Validator one_of(const std::vector<std::string>& names);
 CLI::Validator a_criterion();
 /// A number from 0 to 1, or per cent: 0.5, 50%.
 CLI::Validator a_share();
+/// A finite number.
+CLI::Validator a_number();
+/// A number of a range, both ends included; NaN is in none.
+CLI::Validator a_number_within(double least, double most);
+/// A finite number above 0.
+CLI::Validator a_number_above_0();
 void python(CLI::App& verb, Flags&);
 void pipeline(CLI::App& verb, Flags&);
 void light(CLI::App& verb, Flags&);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <limits>
 
 #include "base/text/amounts.h"
 #include "convert/formats.h"
@@ -165,7 +166,7 @@ constexpr Verb all_verbs[] = {
        v.add_option("--criterion", f.criterion, "order in which edges collapse")->check(a_criterion());
        v.add_option("--pixels", f.pixels,
                     "error in pixels, on a screen 1080 pixels high, that sets the ranges of LOD nodes")
-           ->check(CLI::PositiveNumber)
+           ->check(a_number_above_0())
            ->capture_default_str();
        pipeline(v, f);
        vrml_output(v, f);
@@ -214,11 +215,11 @@ constexpr Verb all_verbs[] = {
        v.add_option("--max-edge", f.max_edge,
                     "longest edge of a patch: 5cm, 0.05; default: chosen for about 20,000 patches")
            ->type_name("LENGTH");
-       v.add_option("--max-area", f.max_area, "largest area of a patch, in square metres")->check(CLI::PositiveNumber);
+       v.add_option("--max-area", f.max_area, "largest area of a patch, in square metres")->check(a_number_above_0());
        v.add_option("--gradient", f.gradient,
                     "halve patches, down to an eighth, where neighbours differ by more than this share of the mean "
                     "radiance: 0.2")
-           ->check(CLI::PositiveNumber);
+           ->check(a_number_above_0());
        v.add_option("--max-patches", f.max_patches,
                     "maximum number of patches; larger ones are used if necessary; a patch takes about 260 bytes")
            ->check(CLI::Range(1, 100'000'000))
@@ -233,7 +234,7 @@ constexpr Verb all_verbs[] = {
            ->type_name("background|none|R:G:B")
            ->capture_default_str();
        v.add_option("--emission", f.emission, "factor for the light of emissiveColor")
-           ->check(CLI::NonNegativeNumber)
+           ->check(a_number_within(0, std::numeric_limits<double>::max()))
            ->capture_default_str();
        v.add_option("--seed", f.seed, "seed of the random numbers; the same seed gives the same file")
            ->capture_default_str();

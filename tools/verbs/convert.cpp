@@ -174,11 +174,12 @@ Saved write_world(Session& s, SaveOptions options, const std::function<void(Scen
 void warn_of_no_light(const Session& s, const Scene& scene) {
   if (!s.flags().is_given("lightmap-as") || s.flags().quiet || s.runs("lightmap")) return;
   const auto may_have = [&](NodeId n) {
-    return scene.is(n, nodes::Inline) ||
-           (scene.is(n, nodes::Appearance) && scene.get(n, nodes::appearance::lightmap));
+    return scene.is(n, nodes::Inline) || (scene.is(n, nodes::Appearance) && scene.get(n, nodes::appearance::lightmap));
   };
   if (!any_node(scene, may_have))
-    fmt::print(stderr, "wrlkit: --lightmap-as has no effect: nothing in the scene has a lightmap; -p lightmap bakes one\n");
+    fmt::print(stderr,
+               "wrlkit: --lightmap-as has no effect: nothing in the scene has a lightmap; -p lightmap bakes "
+               "one\n");
 }
 
 int run_convert(const Flags& flags) {

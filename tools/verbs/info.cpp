@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/io/url.h"
 #include "base/text/json.h"
 #include "parsers/patches/patches.h"
 #include "tools/cli/inputs.h"
@@ -102,6 +103,8 @@ std::string bounds_text(const Box& b) {
                      b.high[1] - b.low[1], b.high[2] - b.low[2]);
 }
 
+bool is_inside(std::string_view url) { return url.empty() || url_kind(url) == UrlKind::data; }
+
 std::string info_text(const std::string& file, const Info& i) {
   const auto& b = i.geometry.bounds;
   const auto format = i.is_inventor ? std::string_view("Open Inventor") : to_string(i.format);
@@ -125,7 +128,7 @@ std::string info_text(const std::string& file, const Info& i) {
   out += "\n";
   if (i.forms) out += forms_text(i);
   for (auto& t : i.textures)
-    out += t.found ? fmt::format("  texture {} {} x {}\n", t.url.empty() ? "in the file" : t.url, t.width, t.height)
+    out += t.found ? fmt::format("  texture {} {} x {}\n", is_inside(t.url) ? "in the file" : t.url, t.width, t.height)
                    : fmt::format("  texture {} is missing\n", t.url);
   return out;
 }

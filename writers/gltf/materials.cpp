@@ -354,7 +354,8 @@ std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
                          (l.texture.texture == none || l.base != white);
   if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
   if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
-  if (l.texture.channels % 2 == 1 || l.texture.channels == 0) said.push_back(m::transparency.slot);
+  const bool is_opaque = l.appearance && scene_.get(l.appearance, nodes::appearance::alphaMode) == "OPAQUE";
+  if ((l.texture.channels % 2 == 1 || l.texture.channels == 0) && !is_opaque) said.push_back(m::transparency.slot);
   return said;
 }
 
@@ -376,10 +377,13 @@ std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
 void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
   if (l.material) said = scene_.is(l.material, nodes::Material) ? said_by_vrml97(l) : said_by_x3d(l);
-  // White and unlit is what a Shape without a Material is, too.
-  bool material =
-      extras_ && l.material && (extras_->anything(l.material, said) || (!l.lit && l.base == white && l.alpha == 1));
-  bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
+  // White and unlit is what a Shape without a Material is, too; what is rough may be of a Material.
+  bool material = extras_ && l.material &&
+                  (extras_->anything(l.material, said) || scene_.is(l.material, nodes::PhysicalMaterial) ||
+                   (!l.lit && l.base == white && l.alpha == 1));
+  const auto alpha_mode = l.appearance ? scene_.get(l.appearance, nodes::appearance::alphaMode) : std::string_view();
+  const bool says_alpha = extras_ && !alpha_mode.empty() && alpha_mode != "AUTO";
+  const bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
   // For a Material alone: a picture that is multiplied, not one that takes the place of the colour.
@@ -389,12 +393,16 @@ void Materials::extras(JsonOut& json, const Look& l) {
   const bool light = l.light.texture != none && (lightmaps_ == As::extras || lightmaps_ == As::occlusion);
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);
-  if (!material && !picture && !named && !transform && !multiplied && !light) return;
+  if (!material && !picture && !named && !says_alpha && !transform && !multiplied && !light) return;
   json.object("extras", [&] {
     if (light) light_extras(json, l);
-    if (material || picture || named || transform || multiplied) {
+    if (material || picture || named || says_alpha || transform || multiplied) {
       json.object("vrml97", [&] {
-        if (named) json.member("Appearance", json_object("DEF", extras_->name(l.appearance)));
+        if (named || says_alpha)
+          json.object("Appearance", [&] {
+            if (named) json.member("DEF", extras_->name(l.appearance));
+            if (says_alpha) json.member("alphaMode", alpha_mode);
+          });
         if (multiplied) json.member("multiplied", true);
         if (material) extras_->node(json, l.material, said);
         if (picture) extras_->node(json, l.texture_node, {}, !extras_->name(l.texture_node).empty());

@@ -17,3 +17,8 @@ wrlkit check -q b.wrl
 wrlkit simplify -q a.wrl --progressive -o wpm && wrlkit info wpm/a.wpm 2>&1
 wrlkit corpus plan recipe.toml src -o out | cut -f 4-
 ls
+for words in 'tiles a.wrl -o tiles --at 50,8,nan' 'simplify a.wrl -o x.glb --ratios 0.5 --pixels nan' 'convert a.wrl x.wrl -p lod{pixels=0}' \
+    'render a.wrl x.png --background 2,0,0' 'render a.wrl x.png --field-of-view nan' 'illuminate a.wrl x.xml --emission nan'; do
+  wrlkit $words 2>&1; echo "$?"
+done
+wrlkit convert a.wrl x.wrl -p 'lod{vanish=1e-320}' && { grep -c nan x.wrl || true; }
