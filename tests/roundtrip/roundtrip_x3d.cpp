@@ -13,6 +13,7 @@
 #include "base/text/xml_text.h"
 #include "parsers/parsers.h"
 #include "passes/lower_x3d/lower_x3d.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tests/roundtrip/worlds.h"
@@ -70,6 +71,7 @@ bool has_what_xml_has_not(const Scene& scene) {
   for (NodeId n : all_nodes(scene)) {
     const auto& t = scene.type(n);
     if (t.kind == NodeKind::unknown || t.is_a(nodes::Vrml1Node)) return true;
+    if (!scene.name(n).empty() && !is_legal_name(scene.name(n))) return true;  // becomes one that VRML97 allows
     for (const Value& v : scene.fields(n)) {
       if (scene.is_extra(v) && !v.extra->value.is) return true;
       const auto& c = scene.content(v);

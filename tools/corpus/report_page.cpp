@@ -189,9 +189,11 @@ class Page {
     }
     json.end_array();
     json_looks.end_array();
-    // "</script>" in a name would end the script.
+    // "</script>" in a name would end the script, "<!--" and "<script" would keep it open.
+    constexpr std::string_view escaped = "\\u003c";
     for (auto* text : {&rows, &looks})
-      for (std::size_t at = 0; (at = text->find("</", at)) != text->npos; at += 3) text->replace(at, 2, "<\\/");
+      for (std::size_t at = 0; (at = text->find('<', at)) != text->npos; at += escaped.size())
+        text->replace(at, 1, escaped);
     put("];\nconst rows={};\nconst looks={};\n{}</script>\n", rows, looks, corpus_table_script());
   }
 

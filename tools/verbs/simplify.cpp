@@ -98,6 +98,10 @@ bool write_world(Session& s, const std::string& path, const Scene& scene) {
 /// The world as one progressive file in place of many.
 int write_progressive_file(Session& s, Criterion criterion, const std::string& path) {
   const auto surfaces = progressive_surfaces(s.world().scene, criterion, s.context());
+  if (surfaces.empty()) {
+    s.diag().report(Diag::nothing_drawn, {}, "it has no surface, and a progressive stream holds nothing else");
+    return s.end(false);
+  }
   auto file = OutputFile::open(path, {.gzip = s.flags().save.gzip, .inputs = s.files_read(), .report_replaced = true},
                                s.diag());
   if (!file) return s.end(false);
