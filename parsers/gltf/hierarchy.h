@@ -55,6 +55,7 @@ class Hierarchy {
   void instances(Json node, Nodes& shapes);
   void own_instances(std::uint32_t node, const Vec3& origin, Nodes& out);
   NodeId transform(Json at, const TransformFields&, const Nodes& children, bool moved = false);
+  static Json light_of(Json node) { return node["extensions"]["KHR_lights_punctual"]["light"]; }
   void orthographic_camera(NodeId, Json node, const TransformFields& place);
   NodeId camera(Json node, const TransformFields&);
   NodeId light(Json node, const TransformFields&, const Matrix& world);
