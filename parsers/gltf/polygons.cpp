@@ -57,8 +57,10 @@ std::optional<std::array<std::uint32_t, 4>> quadrilateral(std::span<const std::u
   return std::nullopt;
 }
 
+using Value = std::array<double, 4>;  // the widest that is joined: an RGBA colour
+
 struct Hash {
-  std::size_t operator()(const std::array<double, 3>& a) const {
+  std::size_t operator()(const Value& a) const {
     std::uint64_t h = 0;
     for (double v : a) h = mixed(h, std::bit_cast<std::uint64_t>(v));
     return h;
@@ -111,9 +113,9 @@ Polygons polylines(std::span<const std::uint32_t> segments) {
 
 Joined join(std::span<const double> values, std::size_t width) {
   Joined out;
-  std::unordered_map<std::array<double, 3>, std::int32_t, Hash> seen;
+  std::unordered_map<Value, std::int32_t, Hash> seen;
   for (std::size_t i = 0; i + width <= values.size(); i += width) {
-    std::array<double, 3> key{};
+    Value key{};
     for (std::size_t k = 0; k < width; ++k) key[k] = values[i + k] + 0.0;  // -0 is 0
     auto [at, is_new] = seen.try_emplace(key, static_cast<std::int32_t>(out.values.size() / width));
     if (is_new)
