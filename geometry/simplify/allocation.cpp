@@ -48,7 +48,7 @@ Allocation::Stop Allocation::stop_at(std::uint32_t part, std::uint32_t rung) con
   const auto& p = parts_[part];
   const auto& d = (*p.rungs)[rung].distortion;
   const double max = p.stretch.max(d);
-  return {rung, {p.weight * p.stretch.squares(d), max, max}};
+  return {rung, {p.stretch.squares(d), max, max}};
 }
 
 /// When larger distances have become usual.

@@ -27,8 +27,7 @@ struct AllocatedPart {
   const std::vector<Rung>* rungs = nullptr;
   std::size_t n_places = 0;                     // where it is drawn
   std::uint32_t first_owner = 0, n_owners = 0;  // among the neighbours: all its places, or some of very many
-  double weight = 1;                            // of the distortion: over all places, the widest counting 1
-  Stretch stretch;                              // from the ladder to there
+  Stretch stretch;                              // from the ladder to all places
   std::uint32_t look = 0;                       // what is seen of it
   std::vector<LeavingSample> leaving;
 

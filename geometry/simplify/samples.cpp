@@ -73,6 +73,58 @@ class Spread {
   double area_ = 0;
 };
 
+using Gram = std::array<double, 6>;
+
+Gram gram_of(const std::array<Vec3, 3>& columns) {
+  Gram out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out[k] = dot(columns[k], columns[k]);
+    out[3 + k] = dot(columns[k], columns[(k + 1) % 3]);
+  }
+  return out;
+}
+
+Gram gram_of(const Matrix& m) { return gram_of({m.column(0), m.column(1), m.column(2)}); }
+
+/// Of a map behind `m`.
+Gram gram_after(const Matrix& m, const Gram& g) {
+  const auto times = [&](const Vec3& v) {
+    return Vec3{g[0] * v[0] + g[3] * v[1] + g[5] * v[2], g[3] * v[0] + g[1] * v[1] + g[4] * v[2],
+                g[5] * v[0] + g[4] * v[1] + g[2] * v[2]};
+  };
+  Gram out;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 way = times(m.column(k));
+    out[static_cast<std::size_t>(k)] = dot(m.column(k), way);
+    out[static_cast<std::size_t>(3 + k)] = dot(m.column((k + 1) % 3), way);
+  }
+  return out;
+}
+
+/// The squared length of a way in the map, where `products` are those of the way.
+double applied(const Gram& g, const Gram& products) {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += g[k] * products[k] + 2 * g[3 + k] * products[3 + k];
+  return sum;
+}
+
+/// No way becomes shorter in it (Gershgorin).
+Gram without_products(const Gram& g) {
+  Gram out{};
+  for (std::size_t k = 0; k < 3; ++k) out[k] = g[k] + std::abs(g[3 + k]) + std::abs(g[3 + (k + 2) % 3]);
+  return out;
+}
+
+/// Whether no way is longer in `a` than in `b`, as far as can be seen at once: it is the same map but for its size.
+bool is_within(const Gram& a, const Gram& b) {
+  constexpr double rounding = 1e-9;
+  const double factor = (a[0] + a[1] + a[2]) / (b[0] + b[1] + b[2]);
+  if (!(factor <= 1 + rounding)) return false;
+  for (std::size_t k = 0; k < 6; ++k)
+    if (std::abs(a[k] - factor * b[k]) > rounding * (a[0] + a[1] + a[2])) return false;
+  return true;
+}
+
 }  // namespace
 
 std::array<double, 2> spread_in_triangle(double k) {
@@ -118,23 +170,35 @@ void Distortion::add(const Vec3& way, double area) {
   farthest = way;
 }
 
-Stretch::Stretch(const Matrix& m, double area) : area_(area) {
-  for (int k = 0; k < 3; ++k) {
-    gram_[static_cast<std::size_t>(k)] = dot(m.column(k), m.column(k));
-    gram_[static_cast<std::size_t>(3 + k)] = dot(m.column(k), m.column((k + 1) % 3));
-  }
+Stretch::Stretch(const Matrix& m, double area) : most_(gram_of(m)) {
+  std::ranges::transform(most_, sum_.begin(), [&](double x) { return area * x; });
 }
 
-double Stretch::squares(const Distortion& d) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += gram_[k] * d.products[k] + 2 * gram_[3 + k] * d.products[3 + k];
-  return area_ * std::max(sum, 0.);
+void Stretch::add(const Stretch& other) {
+  for (std::size_t k = 0; k < 6; ++k) sum_[k] += other.sum_[k];
+  if (is_within(other.most_, most_)) return;
+  if (is_within(most_, other.most_)) {
+    most_ = other.most_;
+    return;
+  }
+  const auto a = without_products(most_), b = without_products(other.most_);
+  std::ranges::transform(a, b, most_.begin(), [](double x, double y) { return std::max(x, y); });
 }
+
+Stretch Stretch::after(const Matrix& m, double area) const {
+  Stretch out;
+  out.sum_ = gram_after(m, sum_);
+  out.most_ = gram_after(m, most_);
+  for (auto& x : out.sum_) x *= area;
+  return out;
+}
+
+double Stretch::squares(const Distortion& d) const { return std::max(applied(sum_, d.products), 0.); }
 
 double Stretch::max(const Distortion& d) const {
   Distortion longest;
   longest.add(d.farthest, 1);
-  return std::sqrt(Stretch(*this).squares(longest) / area_);
+  return std::sqrt(std::max(applied(most_, longest.products), 0.));
 }
 
 void measure_edges(const std::array<Vec3, 3>& corners, double spacing, const ClosestPoint& original,

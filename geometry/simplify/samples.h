@@ -27,20 +27,28 @@ struct Distortion {
   void add(const Vec3& way, double area);
 };
 
-/// What an affine map makes of distortions.
+/// What affine maps make of distortions: of a surface in all its places.
 class Stretch {
  public:
   Stretch() = default;
   /// `area`: factor by which the area grows.
-  Stretch(const Matrix& m, double area);
+  explicit Stretch(const Matrix& m, double area = 1);
 
-  /// No less than if it were measured: what is nearest may be another point in the map.
+  /// The same surface in other places, too.
+  void add(const Stretch& other);
+  /// Of distortions that go through `m` first, by which the area grows by a factor of `area`.
+  Stretch after(const Matrix& m, double area) const;
+
+  /// In all places together. No less than if it were measured: what is nearest may be another point in the map.
   double squares(const Distortion& d) const;
+  /// In the place where it is largest, or more where the places are stretched differently.
   double max(const Distortion& d) const;
 
  private:
-  std::array<double, 6> gram_{1, 1, 1, 0, 0, 0};  // products of the columns, in the order of Distortion::products
-  double area_ = 1;
+  using Gram = std::array<double, 6>;  // products of the columns of a map, in the order of Distortion::products
+
+  Gram sum_{1, 1, 1, 0, 0, 0};   // over all places, each times its area
+  Gram most_{1, 1, 1, 0, 0, 0};  // of any place
 };
 
 /// The point number `k` of a sequence that fills a triangle evenly (of the plastic number), as steps along two edges.

@@ -34,11 +34,43 @@ constexpr std::size_t of_large = 32, of_small = 12, most_leaving = 4'000'000;
 constexpr std::uint64_t most_neighbours = 8'000'000;
 constexpr std::size_t most_left_from = 1024;
 
-double area_of(const Triangles& surface, std::span<const std::uint32_t> faces) {
-  double area = 0;
+/// Normals as long as twice the area of each face.
+std::vector<Vec3> area_normals(const Triangles& surface, std::span<const std::uint32_t> faces) {
+  std::vector<Vec3> out;
+  out.reserve(faces.size());
   for (auto f : faces)
-    if (const auto c = surface[f]; is_usable(c)) area += length(area_normal(c)) / 2;
+    if (const auto c = surface[f]; is_usable(c)) out.push_back(area_normal(c));
+  return out;
+}
+
+/// Where a map takes area normals: its cofactors.
+Matrix map_of_area_normals(const Matrix& m) {
+  const Vec3 x = m.column(0), y = m.column(1), z = m.column(2);
+  return matrix_of_columns(cross(y, z), cross(z, x), cross(x, y));
+}
+
+double area_of(std::span<const Vec3> area_normals, const Matrix& place) {
+  const Matrix map = map_of_area_normals(place);
+  double area = 0;
+  for (const Vec3& n : area_normals) area += fast_length(direction(map, n)) / 2;
   return area;
+}
+
+/// By how much the area of what has been sampled grows in a map: of each sample. Corners, that have no normal, grow as
+/// all do.
+std::vector<double> growth_of(std::span<const SurfaceSample> samples, const Matrix& m) {
+  const Matrix map = map_of_area_normals(m);
+  std::vector<double> out;
+  double before = 0, behind = 0;
+  for (const auto& s : samples) {
+    out.push_back(fast_length(direction(map, s.normal)));
+    if (s.normal == Vec3{}) continue;
+    before += s.weight;
+    behind += s.weight * out.back();
+  }
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (samples[i].normal == Vec3{}) out[i] = before > 0 ? behind / before : 1;
+  return out;
 }
 
 /// Half the width of a thing that is seen from its broad side: the middle one of the extents of its bounds.
@@ -207,18 +239,24 @@ void WorldParts::cut() {
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
     const auto& s = surfaces[parts[i].surface];
     const auto triangles = triangles_of(s.mesh);
-    parts[i].area = area_of(triangles, parts[i].faces) * s.scale * s.scale;
-    allocated[i].weight = 0;
+    const auto normals = area_normals(triangles, parts[i].faces);
+    parts[i].own_area = area_of(normals, Matrix{});
+    parts[i].area = area_of(normals, s.places[s.widest]);
     allocated[i].n_places = s.n_places;
     allocated[i].first_owner = n_owners_;
     allocated[i].n_owners = static_cast<std::uint32_t>(s.places.size());
     allocated[i].look = s.look;
     n_placed_ += static_cast<double>(s.n_places);
     const double each = s.each(s.places.size());
-    for (const Matrix& m : s.places) {
-      const double size = scale_of(m) / s.scale;
-      area += parts[i].area * size * size * each;
-      allocated[i].weight += std::pow(size, 4) * each;
+    for (std::size_t k = 0; k < s.places.size(); ++k) {
+      const Matrix& m = s.places[k];
+      const double grown = each * area_of(normals, m);
+      area += grown;
+      const Stretch there(m, parts[i].own_area > 0 ? grown / parts[i].own_area : each);
+      if (k == 0)
+        allocated[i].stretch = there;
+      else
+        allocated[i].stretch.add(there);
       neighbours.add(triangles, parts[i].faces, m, n_owners_++);
       part_of_.push_back(i);
     }
@@ -274,6 +312,7 @@ WorldParts::Candidate WorldParts::candidate(std::uint32_t part) const {
 
 void WorldParts::find_ladder_of(std::uint32_t i, Candidate mine, std::vector<Known>& alike) {
   auto& part = parts[i];
+  double ladder_area = part.area;
   part.from_ladder = inverse(frame_of(part));
   part.ladder = static_cast<std::uint32_t>(members_.size());
   for (std::size_t k = 0; mine.plain && k < alike.size(); ++k) {
@@ -282,9 +321,11 @@ void WorldParts::find_ladder_of(std::uint32_t i, Candidate mine, std::vector<Kno
     if (!map) continue;
     part.ladder = known.ladder;
     part.from_ladder = part.from_ladder * *map;
-    allocated[i].stretch = Stretch(*map, known.area > 0 ? part.area / known.area : 1);
+    ladder_area = known.area;
     break;
   }
+  const double grown = ladder_area > 0 ? part.own_area / ladder_area : 1;
+  allocated[i].stretch = allocated[i].stretch.after(part.from_ladder, grown);
   if (part.ladder == members_.size()) {
     members_.emplace_back();
     if (mine.plain && alike.size() < most_alike)
@@ -396,12 +437,13 @@ void WorldParts::find_leaving(std::uint32_t part) {
   const double each = s.each((s.places.size() + step - 1) / step);
   for (std::size_t k = 0; k < s.places.size(); k += step) {
     const Surroundings around{out.first_owner, out.first_owner + out.n_owners, s.places[k] * back, width};
-    const double grown = std::pow(scale_of(s.places[k]) / s.scale, 2) * each;
+    const auto grown = growth_of(samples, around.place);
     Neighbours::Found near{0, ClosestPoint::no_guess, ClosestPoint::no_guess};
-    for (const auto& sample : samples) {
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const auto& sample = samples[i];
       const bool hidden = std::isfinite(enough(around, sample, far, near));
-      out.leaving.push_back({around.place.point(sample.point), sample.weight * grown, hidden ? 0 : width * width,
-                             out.look, near.owner, near.distance});
+      out.leaving.push_back({around.place.point(sample.point), sample.weight * grown[i] * each,
+                             hidden ? 0 : width * width, out.look, near.owner, near.distance});
     }
   }
 }

@@ -30,8 +30,9 @@ struct WorldPart {
   std::uint32_t surface;
   std::vector<std::uint32_t> faces;
   std::uint32_t ladder = 0;
-  Matrix from_ladder;  // from metres where the ladder is to the coordinates of the surface: affine
-  double area = 0;     // in the widest place
+  Matrix from_ladder;   // from metres where the ladder is to the coordinates of the surface: affine
+  double own_area = 0;  // in the coordinates of the surface
+  double area = 0;      // in the widest place
 };
 
 class WorldParts {

@@ -167,7 +167,7 @@ TEST_CASE("allocation: a step that has become dearer waits for the cheaper one",
   for (std::uint32_t i = 0; i < 3; ++i) {
     neighbours.add(surface, {&faces[i], 1}, {}, i);
     neighbours.end_part();
-    parts[i] = {&rungs, 1, i, 1, 1, {}, 0, {}};
+    parts[i] = {&rungs, 1, i, 1, {}, 0, {}};
     for (const Vec3& p : surface[faces[i]]) {
       LeavingSample sample{p, i == 2 ? 0.005 / 3 : 8. / 3, 0, 0, ClosestPoint::no_guess, 0};
       sample.is_asked = false;

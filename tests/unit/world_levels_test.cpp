@@ -139,6 +139,27 @@ TEST_CASE("world levels: each is farther from the world than the one before, as 
   CHECK(measured < 1);
 }
 
+TEST_CASE("world levels: beams that are one form stretched differently are as far off as the diff sees it",
+          "[levels]") {
+  std::string text =
+      "Shape { geometry Box { } } Transform { scale 1 60 1 children DEF Beam Shape { geometry Cylinder { radius 0.2 "
+      "height 1 } } }";
+  for (int i = 1; i < 12; ++i)
+    text +=
+        at(5. * i, 0, 0,
+           "Transform { scale " + std::to_string(1 + i % 3) + ' ' + std::to_string(4 * i) + " 1 children USE Beam }");
+  TestWorld w(text);
+  const auto levels = levels_of(w, {300, 100, 60});
+  REQUIRE(levels.points().size() == 3);
+  for (std::size_t i = 0; i < levels.points().size(); ++i) {
+    const auto d = distance(w.scene, levels.scene_at(i));
+    const auto& said = levels.points()[i];
+    CHECK(said.rms >= 0.9 * d.rms);
+    CHECK(said.rms <= 1.5 * d.rms);
+    CHECK(said.max >= 0.8 * d.max);
+  }
+}
+
 TEST_CASE("world levels: bolts leave before tanks do, and names stay", "[levels]") {
   TestWorld w(tank_with_bolts(20));
   const auto levels = levels_of(w, {40});
