@@ -6,6 +6,7 @@
 #include "base/io/output.h"
 #include "base/io/url.h"
 #include "base/stop.h"
+#include "convert/nothing_drawn.h"
 #include "convert/output_urls.h"
 #include "convert/repeated_meshes.h"
 #include "scenegraph/nodes.h"
@@ -77,29 +78,6 @@ std::vector<NodeId> geometries_of(const Scene& scene) {
   return out;
 }
 
-/// A node that is not known, or one of X3D that is drawn by browsers and not by us.
-bool should_be_drawn(const Scene& scene, NodeId n) {
-  return scene.type(n).kind == NodeKind::unknown || (scene.is(n, nodes::X3DShapeNode) && !scene.is(n, nodes::Shape));
-}
-
-std::string no_picture(std::string_view type) {
-  return "it has no geometry, but a node '" + std::string(type) + "', which is not drawn";
-}
-
-/// A glTF without meshes is what some scenes deserve (lights, PROTO libraries), but nobody should find it out later.
-void say_why_empty(const Scene& scene, Diagnostics& diag) {
-  const auto& roots = scene.main.roots;
-  const auto all = reachable(scene, scene.main);
-  const auto undrawn = std::ranges::find_if(all, [&](NodeId n) { return should_be_drawn(scene, n); });
-  if (undrawn != all.end())
-    diag.report(Diag::nothing_drawn, scene.where(*undrawn), no_picture(scene.type(*undrawn).name));
-  else if (diag.count(Diag::unknown_node) > 0)
-    diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]),
-                "it has no geometry, but nodes that are not known");
-  else if (roots.empty() && scene.proto_count() == 0)
-    diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
-}
-
 }  // namespace
 
 bool write_vrml_file(const Writing& w) { return write_text(w, write_vrml); }
@@ -108,7 +86,6 @@ bool write_x3d_file(const Writing& w) { return write_text(w, write_x3d); }
 bool write_gltf_file(const Writing& w) {
   auto& ctx = w.context;
   const auto geometries = geometries_of(w.scene);
-  if (geometries.empty()) say_why_empty(w.scene, ctx.diag);
   if (ctx.monitor) ctx.monitor->begin("writing " + w.to.path, geometries.size(), "shapes");
   const auto step = [&] {
     check_stop();
@@ -124,9 +101,10 @@ bool write_gltf_file(const Writing& w) {
     gltf::make_vertices(mesh, asked_of(n, textured), scratch, out);
   };
   RepeatedMeshes repeated(w.scene, w.meshes, w.makers, vertices, geometries, ctx);
+  DrawnMeshes drawn(w.scene, std::ref(repeated), ctx.diag);
   const MeshSource counted = [&](NodeId n) -> const Mesh& {
     step();
-    return repeated(n);
+    return drawn(n);
   };
   options.vertices_ahead = [&](NodeId n, const gltf::VertexOptions& asked) -> Vertices* {
     return asked == asked_of(n, repeated.is_textured(n)) ? repeated.take_vertices(n) : nullptr;
@@ -140,7 +118,11 @@ bool write_gltf_file(const Writing& w) {
   try {
     NamedFiles named(*ctx.resources, ctx.diag);
     if (!named.write()) return false;
-    if (w.sink) return write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
+    if (w.sink) {
+      const bool done = write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
+      drawn.report();
+      return done;
+    }
     MadeFiles beside(w.scene, *ctx.resources, w.to.path, ctx.diag);  // pictures are glTF's own matter
     OutputUrls urls(w, false);
     options.lead_urls = [&](Span where, std::span<const std::string_view> list, UrlUse use) {
@@ -153,6 +135,7 @@ bool write_gltf_file(const Writing& w) {
         write_gltf(w.scene, counted, options, ctx.resources, w.to.path, ctx.diag, &w.saved.gltf.emplace()) &&
         beside.commit() && named.commit();
     if (done) urls.keep();
+    drawn.report();
     return done;
   } catch (const Stopped&) {
     return false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "base/io/output.h"
 #include "base/text/json.h"
 #include "base/text/letter_case.h"
+#include "convert/nothing_drawn.h"
 #include "tools/verbs/render_sheets.h"
 
 namespace wrlkit {
@@ -25,7 +27,11 @@ Image draw(Session& s, const MeshSource& meshes, RenderOptions options, std::str
   const auto pixels = static_cast<double>(options.width) * options.height;
   s.progress().begin(std::move(name), path ? static_cast<std::uint64_t>(pixels) : 0, path ? "pixels" : "");
   if (path) options.done = [&](double share) { s.progress().set(static_cast<std::uint64_t>(share * pixels)); };
-  return render(s.world().scene, meshes, options, &s.resources(), diag ? *diag : s.diag());
+  Diagnostics& heard = diag ? *diag : s.diag();
+  DrawnMeshes drawn(s.world().scene, meshes, heard, DrawnMeshes::n_dropped(heard));
+  Image out = render(s.world().scene, std::ref(drawn), options, &s.resources(), heard);
+  drawn.report();
+  return out;
 }
 
 namespace {

@@ -11,6 +11,7 @@
 #include "base/io/url.h"
 #include "base/text/json.h"
 #include "convert/missing_files.h"
+#include "convert/nothing_drawn.h"
 #include "convert/placing.h"
 #include "convert/shown_surface.h"
 #include "geometry/progressive/progressive_world.h"
@@ -74,13 +75,15 @@ class Viewer {
     auto& world = page_.worlds.emplace_back();
     world.name = std::filesystem::path(input).filename().string();
     Scene& scene = s_.world().scene;
+    const auto n_dropped = DrawnMeshes::n_dropped(s_.diag());
     const auto meshes = s_.pipeline().run_lazily(scene, s_.context(), s_.pipeline_options());
     if (!meshes) return false;
     std::size_t n_triangles = 0;
     const bool compared = s_.flags().inputs.size() == 2;
     if (compared) surfaces_.push_back(std::make_unique<ShownSurface>(scene, s_.diag()));
+    DrawnMeshes drawn(scene, meshes, s_.diag(), n_dropped);
     auto counted = [&](NodeId n) -> const Mesh& {
-      const Mesh& mesh = meshes(n);
+      const Mesh& mesh = drawn(n);
       n_triangles += mesh.is_triangles() ? mesh.n_faces() : 0;
       if (compared) surfaces_.back()->add(n, mesh);
       return mesh;
@@ -92,6 +95,7 @@ class Viewer {
                               .is_understood = [&scene](NodeId n) { return is_played(scene, n); }};
     auto take = [&](std::string_view bytes) { world.glb += bytes; };
     if (!write_glb(scene, counted, options, &s_.resources(), take, s_.diag())) return false;
+    drawn.report();
     const bool usual = s_.flags().criteria.empty();
     if (!usual || (!compared && n_triangles <= usual_most_triangles))
       for (const auto& criterion : usual ? usual_criteria() : s_.flags().criteria) add_collapse(authored, criterion);
