@@ -53,6 +53,7 @@ struct TilesMade {
   std::vector<TileFigures> tiles = {};  // the root is the first
   std::size_t depth = 0;                // levels behind the root
   std::size_t n_files = 0, n_failed = 0;
+  std::vector<std::string> inlined = {};         // names of files that others of the set inline, and show
   std::size_t triangles = 0, parts = 0;          // of all files
   std::vector<std::size_t> shown = {};           // parts, by level: of its tiles and of full tiles above it
   std::size_t n_cut = 0;                         // pieces of surfaces that are too large for a tile
@@ -68,8 +69,9 @@ struct TilesMade {
 };
 
 /// Reads the files one after the other through `reader`, whose messages are then those of all of them; one that cannot
-/// be read costs itself. Writes `folder`/tileset.json, and its tiles into a folder next to it that is called after
-/// their contents; whole or not at all: tileset.json comes last, and what an earlier one referred to is removed then.
+/// be read costs itself, and one that another of them inlines is shown where that one shows it, and nowhere else.
+/// Writes `folder`/tileset.json, and its tiles into a folder next to it that is called after their contents; whole or
+/// not at all: tileset.json comes last, and what an earlier one referred to is removed then.
 ///
 /// Tiles are kept in `folder`/.wrlkit until the set is whole: a run that was killed is gone on with by the next one,
 /// and shards find what the others have made. The last of them to end makes the tiles above, and the set.

@@ -23,9 +23,9 @@ class InputPieces {
 
   /// Makes the file on disk, in a folder. False, which is reported, when it cannot be made.
   bool open(const std::string& folder);
-  /// Reads the files one after the other; one that cannot be read, or does not fit into the memory, costs itself.
-  /// Counts files, triangles and parts in `made`. False, which is reported, when there are no pieces or the disk is
-  /// full.
+  /// Reads the files one after the other; one that cannot be read, or does not fit into the memory, costs itself, and
+  /// one that another of them inlines is shown there alone. Counts files, triangles and parts in `made`. False, which
+  /// is reported, when there are no pieces or the disk is full.
   bool read(std::span<const TilesInput> inputs, TilesMade& made);
 
   /// In the order of the files.
@@ -36,7 +36,14 @@ class InputPieces {
   FileResources& pictures() const { return *pictures_; }
 
  private:
-  bool take(const TilesInput& input, SceneCounts& counts, TilesMade& made);
+  /// What came of a file.
+  struct Taken {
+    std::vector<PieceStore::Entry> entries;
+    SceneCounts counts;
+    std::size_t triangles = 0, parts = 0;
+    bool is_read = false, is_inlined = false;
+  };
+  bool take(const TilesInput& input, Taken& out);
   bool read_scene(const std::string& path);
 
   Document& reader_;

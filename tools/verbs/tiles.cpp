@@ -114,6 +114,9 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
   if (made.n_descriptions > 1) out += fmt::format("  files that describe tiles: {}\n", made.n_descriptions);
   if (made.n_over > 0) out += fmt::format("  tiles above the budget of draws or bytes: {}\n", made.n_over);
   if (made.n_failed > 0) out += fmt::format("  files that could not be read: {}\n", made.n_failed);
+  if (!made.inlined.empty())
+    out += fmt::format("  files that others inline, and that are shown only there: {} ({}{})\n", made.inlined.size(),
+                       made.inlined[0], made.inlined.size() > 1 ? ", ..." : "");
   if (made.n_cut > 0) out += fmt::format("  pieces of surfaces that are too large for a tile: {}\n", made.n_cut);
   if (made.lost.empty()) return out;
   out += "  lost, for tiles have no place for them:";
@@ -131,10 +134,10 @@ std::string json_of(const TilesMade& made) {
   std::string out;
   JsonOut json(out);
   json.begin_object();
-  json.members("files", made.n_files, "failed", made.n_failed, "triangles", made.triangles, "parts", made.parts,
-               "bytes", made.bytes, "depth", made.depth, "whole", made.whole, "kept", made.n_kept, "left", made.n_left,
-               "descriptions", made.n_descriptions, "over", made.n_over, "cut", made.n_cut, "lost", made.lost, "levels",
-               made.whole ? levels_of(made) : std::vector<Level>());
+  json.members("files", made.n_files, "failed", made.n_failed, "inlined", made.inlined, "triangles", made.triangles,
+               "parts", made.parts, "bytes", made.bytes, "depth", made.depth, "whole", made.whole, "kept", made.n_kept,
+               "left", made.n_left, "descriptions", made.n_descriptions, "over", made.n_over, "cut", made.n_cut, "lost",
+               made.lost, "levels", made.whole ? levels_of(made) : std::vector<Level>());
   json.list("tiles", made.tiles, [&](const auto& tile) { write_tile(json, tile); });
   json.end_object();
   return out;

@@ -1,0 +1,16 @@
+mkdir -p %t.d/loop
+cd %t.d
+box() { echo "Transform { translation $1 0 0 children DEF Box_$1 Shape { geometry Box { size 1 1 1 } } }"; }
+inline() { echo "Transform { translation $1 0 0 children Inline { url \"$2\" } }"; }
+(echo '#VRML V2.0 utf8'; inline 100 part.wrl; inline 200 zip.wrl; box 5; echo 'Anchor { url "other.wrl" children [ ] }') > main.wrl
+(echo '#VRML V2.0 utf8'; box 0) > part.wrl
+(echo '#VRML V2.0 utf8'; inline 1 part.wrl) | gzip > zip.wrl
+(echo '#VRML V2.0 utf8'; box 50) > other.wrl
+(echo '#VRML V2.0 utf8'; box 1; inline 10 b.wrl) > loop/a.wrl
+(echo '#VRML V2.0 utf8'; box 2; inline 10 a.wrl) > loop/b.wrl
+for order in 'main.wrl other.wrl part.wrl zip.wrl' 'zip.wrl part.wrl other.wrl main.wrl'; do
+  wrlkit tiles $order -o set
+  wrlkit tiles $order -o set --json | grep -o '"files":[0-9]*\|"inlined":[^]]*\|"triangles":[0-9]*,"parts":[0-9]*' | head -3
+done
+wrlkit tiles loop -o loop_set -q --json 2> log | grep -o '"inlined":[^]]*\|"triangles":[0-9]*' | head -2
+grep -o "error: .*" log
