@@ -54,10 +54,13 @@ bool is_line_or_point(const Scene& scene, NodeId n) {
 
 /// About what a geometry becomes; 0 for other nodes.
 double triangles_of(const Scene& scene, NodeId n) {
-  constexpr double of_box = 12, of_sphere = 960, of_curved = 100;  // as they are drawn, and about
+  constexpr double of_box = 12, of_cone = 62, of_cylinder = 124, of_sphere = 960;  // as they are drawn
+  constexpr double of_curved = 100;                                                // about
   if (!scene.is(n, nodes::X3DGeometryNode) || is_line_or_point(scene, n)) return 0;
   if (scene.is(n, nodes::IndexedFaceSet)) return triangles_of_faces(scene.get(n, nodes::indexed_face_set::coordIndex));
   if (scene.is(n, nodes::Box)) return of_box;
+  if (scene.is(n, nodes::Cone)) return of_cone;
+  if (scene.is(n, nodes::Cylinder)) return of_cylinder;
   if (scene.is(n, nodes::Sphere)) return of_sphere;
   const bool is_set = scene.is(n, nodes::X3DComposedGeometryNode) && !scene.is(n, nodes::ElevationGrid);
   return is_set ? triangles_of_set(scene, n) : of_curved;

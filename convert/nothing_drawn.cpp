@@ -31,10 +31,10 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
   if (undrawn != all.end())
     diag.report(Diag::nothing_drawn, scene.where(*undrawn), no_picture(scene.type(*undrawn).name));
   else if (diag.count(Diag::unknown_node) > 0)
-    diag.report(Diag::nothing_drawn, roots.empty() ? Span{} : scene.where(roots[0]),
+    diag.report(Diag::nothing_drawn, roots.empty() ? scene.file : scene.where(roots[0]),
                 "it has no geometry, but nodes that are not known");
   else if (roots.empty() && scene.proto_count() == 0)
-    diag.report(Diag::nothing_drawn, Span{.begin = 0}, "it holds no node");
+    diag.report(Diag::nothing_drawn, scene.file, "it holds no node");
 }
 
 }  // namespace
@@ -44,8 +44,8 @@ DrawnMeshes::DrawnMeshes(const Scene& scene, MeshSource meshes, Diagnostics& dia
 
 std::size_t DrawnMeshes::n_dropped(const Diagnostics& diag) {
   std::size_t n = 0;
-  for (const auto message : {Diag::bad_index, Diag::degenerate_face, Diag::degenerate_line, Diag::short_height,
-                             Diag::degenerate_geometry})
+  for (const auto message :
+       {Diag::bad_index, Diag::degenerate_face, Diag::degenerate_line, Diag::short_height, Diag::degenerate_geometry})
     n += diag.count(message);
   return n;
 }
@@ -60,7 +60,7 @@ const Mesh& DrawnMeshes::operator()(NodeId geometry) {
 void DrawnMeshes::report() const {
   if (is_any_drawn_) return;
   if (n_dropped(diag_) > n_before_)
-    diag_.report(Diag::nothing_drawn, first_ ? scene_.where(first_) : Span{},
+    diag_.report(Diag::nothing_drawn, first_ ? scene_.where(first_) : scene_.file,
                  "all its faces, lines and points are dropped");
   else if (!first_ && !has_geometry(scene_))
     say_why_empty(scene_, diag_);

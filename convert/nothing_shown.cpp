@@ -128,7 +128,7 @@ void report_cause(const Scene& scene, bool hidden, Diagnostics& diag) {
 
 void report_without_roots(const Scene& scene, Diagnostics& diag) {
   if (scene.main.protos.empty() && diag.has_errors()) return;  // nothing could be read
-  if (scene.main.protos.empty()) return diag.report(Diag::nothing_shown, Span{.begin = 0}, "it holds no node");
+  if (scene.main.protos.empty()) return diag.report(Diag::nothing_shown, scene.file, "it holds no node");
   diag.report(Diag::nothing_shown, scene.proto(scene.main.protos[0]).where,
               "its prototypes (" + listed(proto_names(scene)) + ") are declared, and none of them is used");
 }

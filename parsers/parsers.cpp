@@ -48,9 +48,11 @@ Format guess_format(std::string_view s) {
   auto word = s.substr(0, static_cast<std::size_t>(word_end - s.begin()));
   auto rest = trim(s.substr(word.size()));
   if (word == "DEF" || word == "PROTO" || word == "EXTERNPROTO" || word == "ROUTE") return Format::vrml97;
+  if (word == "PROFILE") return Format::x3d_classic;
   if (!rest.starts_with('{')) return Format::none;
   return find_builtin(word, Dialect::vrml97)  ? Format::vrml97
          : find_builtin(word, Dialect::vrml1) ? Format::vrml1
+         : find_builtin(word, Dialect::x3d)   ? Format::x3d_classic
                                               : Format::none;
 }
 
@@ -85,15 +87,21 @@ bool is_x3d_element(std::string_view name) {
   return name == "X3D" || name == "Scene" || name == "scene" || find_builtin(name, Dialect::x3d);
 }
 
+/// Whether VRML is the first word of a comment: others are about it.
+bool begins_with_vrml(std::string_view comment) {
+  const auto word = std::ranges::find_if(comment, [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
+  return starts_with_ignoring_case(comment.substr(static_cast<std::size_t>(word - comment.begin())), "vrml");
+}
+
 Header read_header(std::string_view text) {
   const auto line = header_line(text);
   if (line.starts_with('#')) {
     if (line.starts_with("#VRML V2.0 utf8")) return {Format::vrml97, true, false};
-    if (contains_nocase(line, "vrml") && line.find("1.0") != line.npos)
-      return {Format::vrml1, line.starts_with("#VRML V1.0 ascii"), false};
+    const bool is_vrml = begins_with_vrml(line);
+    if (is_vrml && line.find("1.0") != line.npos) return {Format::vrml1, line.starts_with("#VRML V1.0 ascii"), false};
     if (line.starts_with("#Inventor")) return {Format::vrml1, true, false};
     if (line.starts_with("#X3D")) return {Format::x3d_classic, true, false};
-    if (contains_nocase(line.substr(0, 16), "vrml")) return {Format::vrml97, false, false};
+    if (is_vrml) return {Format::vrml97, false, false};
   }
   if (line.starts_with('<') && (contains_nocase(text.substr(0, 65536), "<x3d") || is_x3d_element(first_element(text))))
     return {Format::x3d_xml, true, false};
@@ -147,6 +155,7 @@ std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, co
   auto world = std::make_unique<World>();
   world->format = Format::gltf;
   world->scene.sources = diag.shared_sources();
+  world->scene.file = Span{base, 0};
   gltf_reader::parse(bytes, base, path, options.allowed, options.lookups, options.parse, world->scene, diag);
   return world;
 }
@@ -175,17 +184,18 @@ std::unique_ptr<World> parse_text(std::string_view text, std::uint32_t base, con
   const bool old = header.format == Format::vrml1, xml = header.format == Format::x3d_xml,
              classic = header.format == Format::x3d_classic;
   if (header.missing)
-    diag.report(Diag::header_missing, whole, old ? "VRML 1.0" : "VRML97");
+    diag.report(Diag::header_missing, whole, old ? "VRML 1.0" : classic ? "X3D" : "VRML97");
   else if (!header.exact)
     diag.report(Diag::header_repaired, first, trim(first_line(body)), old ? "#VRML V1.0 ascii" : "#VRML V2.0 utf8");
   auto world = std::make_unique<World>();
   world->format = world->scene.format = header.format;
   world->scene.sources = diag.shared_sources();
+  world->scene.file = whole;
   if (xml) {
     x3d::parse(body, base, options.parse, world->scene, diag);
     return world;
   }
-  if (classic) world->scene.x3d.version = x3d_version(trim(first_line(trim(body))));
+  if (classic && !header.missing) world->scene.x3d.version = x3d_version(trim(first_line(trim(body))));
   auto after = header.missing ? body : trim(body).substr(first_line(trim(body)).size());
   world->scene.comment = leading_comment(after);
   if (old && !header.missing) world->scene.header = trim(first_line(trim(body)));

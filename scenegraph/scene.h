@@ -75,6 +75,7 @@ class Scene {
   X3dHead x3d;
   Scope main;
   std::shared_ptr<Sources> sources;
+  Span file;  // where it begins: messages about all of it are there
 
   // Nodes.
   NodeId add(TypeId, Span where = {});

@@ -36,17 +36,11 @@ bool Buffers::spend(std::uint64_t bytes, Json on) {
   return false;
 }
 
-std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
+std::optional<std::string> Buffers::find(Json buffer, std::string_view uri) {
   auto report = [&](Diag id, auto... more) {
     file_.diag().report(id, file_.where(buffer["uri"]), uri.substr(0, 100), more...);
     return std::nullopt;
   };
-  if (url_kind(uri) == UrlKind::data) {
-    if (!spend(uri.size(), buffer)) return std::nullopt;
-    auto bytes = decode_data_url(uri);
-    if (!bytes) return report(Diag::url_not_found);
-    return bytes;
-  }
   if (url_kind(uri) != UrlKind::file) return report(Diag::url_network);
   if (path_.empty()) return report(Diag::url_not_found);
   const auto best = find_url(files_, uri, path_);
@@ -54,10 +48,22 @@ std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
   if (best.state == AllowedFiles::outside) return report(Diag::url_outside);
   if (best.state == AllowedFiles::missing) return report(Diag::url_not_found);
   if (best.state == AllowedFiles::repaired) report(Diag::url_repaired, best.path);
+  return best.path;
+}
+
+std::optional<std::string> Buffers::load(Json buffer, std::string_view uri) {
+  if (url_kind(uri) == UrlKind::data) {
+    if (!spend(uri.size(), buffer)) return std::nullopt;
+    auto bytes = decode_data_url(uri);
+    if (!bytes) file_.diag().report(Diag::url_not_found, file_.where(buffer["uri"]), uri.substr(0, 100));
+    return bytes;
+  }
+  const auto path = find(buffer, uri);
+  if (!path) return std::nullopt;
   std::string why;
-  auto bytes = read_bytes(best.path, max_bytes - spent_, why);
+  auto bytes = read_bytes(*path, max_bytes - spent_, why);
   if (!bytes) {
-    file_.diag().report(Diag::cannot_read, file_.where(buffer), best.path, why);
+    file_.diag().report(Diag::cannot_read, file_.where(buffer), *path, why);
     return std::nullopt;
   }
   if (!spend(bytes->size(), buffer)) return std::nullopt;
@@ -74,6 +80,15 @@ std::optional<std::string_view> Buffers::buffer(std::uint32_t index) {
   if (!loaded) return std::nullopt;
   b.own = std::move(*loaded);
   return b.bytes = b.own;
+}
+
+void Buffers::look_for_unread() {
+  for (std::uint32_t i = 0; i < buffers_.size(); ++i) {
+    const Json json = file_.at(Table::buffers, i);
+    const auto uri = json["uri"].text();
+    const bool is_fallback = static_cast<bool>(json["extensions"]["EXT_meshopt_compression"]);
+    if (!buffers_[i].tried && !is_fallback && !uri.empty() && url_kind(uri) == UrlKind::file) find(json, uri);
+  }
 }
 
 std::optional<std::string_view> Buffers::slice(Json of) {

@@ -26,6 +26,8 @@ class Buffers {
   std::optional<std::string_view> slice(Json of);
   /// What the uri of a buffer or image leads to.
   std::optional<std::string> load(Json owner, std::string_view uri);
+  /// Reports files of buffers that are not there, also where extras say all that was to be read: others need them.
+  void look_for_unread();
 
  private:
   struct Buffer {
@@ -39,6 +41,8 @@ class Buffers {
     std::optional<ViewBytes> bytes;
   };
   std::optional<std::string_view> buffer(std::uint32_t index);
+  /// The file, or nothing, which was reported.
+  std::optional<std::string> find(Json buffer, std::string_view uri);
   std::optional<ViewBytes> make_view(Json, View&);
   bool unpack(Json compression, View&);
   bool spend(std::uint64_t bytes, Json on);

@@ -62,6 +62,7 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
     lost.keep(file, file.root()["asset"]);
     add_world_info(context);
   }
+  buffers.look_for_unread();
   lost.report(diag);
 }
 

@@ -8,6 +8,8 @@
 #include <iterator>
 
 #include "base/io/output.h"
+#include "base/io/read_file.h"
+#include "base/text/json_reader.h"
 #include "tools/verbs/serve.h"
 #include "tools/verbs/viewer_page.h"
 
@@ -62,6 +64,17 @@ std::optional<Served> file_at(const fs::path& root, std::string_view address) {
   return Served{type, std::move(bytes)};
 }
 
+/// Whether it says what a tileset must (3D Tiles 1.1, 7.2).
+bool is_tileset(const fs::path& path) {
+  constexpr std::uint64_t most = 256 << 20;
+  std::string why;
+  const auto text = read_bytes(path.string(), most, why);
+  JsonDocument document;
+  if (!text || document.parse(*text)) return false;
+  const Json set = document.root();
+  return set["asset"]["version"].is_text() && set["root"].is_object();
+}
+
 /// A page next to the tileset, or elsewhere in the same site.
 bool write_page(Session& s, const fs::path& folder) {
   const auto& output = s.flags().output;
@@ -80,8 +93,8 @@ std::string tileset_folder(std::span<const std::string> inputs) {
   if (inputs.size() != 1) return {};
   const fs::path input(inputs[0]);
   std::error_code fault;
-  if (fs::is_directory(input, fault)) return fs::exists(input / file_name, fault) ? input.string() : std::string();
-  if (input.filename() != file_name || !fs::exists(input, fault)) return {};
+  if (fs::is_directory(input, fault)) return is_tileset(input / file_name) ? input.string() : std::string();
+  if (input.filename() != file_name || !is_tileset(input)) return {};
   return input.has_parent_path() ? input.parent_path().string() : ".";
 }
 
