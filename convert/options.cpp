@@ -17,6 +17,7 @@ GltfOptions gltf_options(const SaveOptions& o, bool binary) {
           .animation_pointer = o.animation_pointer,
           .names = o.names,
           .gpu_instancing = o.gpu_instancing,
+          .own_folder = o.own_folder,
           .extras = o.extras != Extras::none,
           .facts_only = o.names == GltfOptions::Names::table || o.extras != Extras::all,
           .hidden = o.hidden,

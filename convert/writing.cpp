@@ -51,13 +51,16 @@ bool write_text(const Writing& w, TextWriter write) {
     return write_named_files(*w.context.resources, diag);
   }
   const auto& path = w.to.path;
-  auto file = OutputFile::open(
-      path, {.gzip = w.to.gzip, .inputs = &w.context.resources->files_read(), .report_replaced = w.options.is_derived},
-      diag);
+  auto file = OutputFile::open(path,
+                               {.gzip = w.to.gzip,
+                                .inputs = &w.context.resources->files_read(),
+                                .written = &w.context.resources->files_written(),
+                                .report_replaced = w.options.is_derived},
+                               diag);
   if (!file) return false;
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   if (path != "-" && !w.options.dump && w.to.format->parsed == Format::vrml97) report_inlines(w);
-  MadeFiles made(w.scene, *w.context.resources, path, diag);
+  MadeFiles made(w.scene, *w.context.resources, path, w.options.own_folder, diag);
   options.file = path == "-" || w.options.keep_urls ? "" : path;
   options.place = [&](std::string_view url) { return made.place(url); };
   OutputUrls urls(w, true);
@@ -123,7 +126,8 @@ bool write_gltf_file(const Writing& w) {
       drawn.report();
       return done;
     }
-    MadeFiles beside(w.scene, *ctx.resources, w.to.path, ctx.diag);  // pictures are glTF's own matter
+    // Pictures are glTF's own matter.
+    MadeFiles beside(w.scene, *ctx.resources, w.to.path, w.options.own_folder, ctx.diag);
     OutputUrls urls(w, false);
     options.lead_urls = [&](Span where, std::span<const std::string_view> list, UrlUse use) {
       std::vector<std::string> led;

@@ -13,6 +13,7 @@
 #include "base/diagnostics.h"
 #include "base/image/image.h"
 #include "base/io/files_read.h"
+#include "base/io/files_written.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -93,11 +94,14 @@ class Resources {
   /// What was read from until now; outputs do not replace it.
   FilesRead& files_read() { return files_read_; }
   const FilesRead& files_read() const { return files_read_; }
+  /// What is written next to them.
+  FilesWritten& files_written() const { return files_written_; }
 
  private:
   std::deque<MadeFile> made_;
   std::vector<NamedFile> named_;
   FilesRead files_read_;
+  mutable FilesWritten files_written_;
 };
 
 }  // namespace wrlkit

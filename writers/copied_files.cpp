@@ -176,9 +176,13 @@ bool CopiedFiles::write() {
 bool CopiedFiles::write(const std::string& from, const fs::path& to) {
   std::error_code fault;
   const bool was_there = fs::exists(to, fault);
-  if (was_there && have_equal_contents(from, to)) return true;
+  if (was_there && have_equal_contents(from, to)) {
+    resources_.files_written().add(to.string());
+    return true;
+  }
   if (was_there) diag_.report(Diag::file_replaced, {}, to.string());
-  auto out = OutputFile::open(to.string(), {.inputs = &resources_.files_read()}, diag_);
+  auto out = OutputFile::open(to.string(), {.inputs = &resources_.files_read(), .written = &resources_.files_written()},
+                              diag_);
   if (!out) return false;
   std::ifstream in(from, std::ios::binary);
   std::array<char, 64 * 1024> piece{};

@@ -14,8 +14,12 @@ fs::path stem_of(const std::string& output) {
   return p.replace_extension();
 }
 
-MadeFiles::MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag)
-    : resources_(resources), output_(std::move(output)), diag_(diag) {
+MadeFiles::MadeFiles(const Scene& scene, const Resources& resources, std::string output, bool own_folder,
+                     Diagnostics& diag)
+    : resources_(resources),
+      output_(std::move(output)),
+      beginning_(stem_of(output_).filename().string() + (own_folder ? "_files/made/" : ".")),
+      diag_(diag) {
   if (resources_.made().empty()) return;
   for (std::uint32_t i = 0; i < scene.node_count(); ++i)
     for (const Value& v : scene.fields(NodeId{i}))
@@ -26,11 +30,10 @@ MadeFiles::MadeFiles(const Scene& scene, const Resources& resources, std::string
 const std::string& MadeFiles::name_of(const MadeFile& file) {
   auto known = std::ranges::find(placed_, &file, &Placed::file);
   if (known != placed_.end()) return known->name;
-  const std::string stem = stem_of(output_).filename().string() + ".";
   const fs::path own(file.name);
-  std::string name = stem + file.name;
+  std::string name = beginning_ + file.name;
   for (int k = 2; taken_.contains(name) || taken_.contains(uri_of(name)); ++k)
-    name = stem + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
+    name = beginning_ + own.stem().string() + "_" + std::to_string(k) + own.extension().string();
   taken_.insert(name);
   return placed_.emplace_back(Placed{name, &file, {}}).name;
 }
@@ -48,7 +51,9 @@ bool MadeFiles::write() {
     if (file.always && output_ != "-") name_of(file);
   for (Placed& p : placed_) {
     const auto path = (stem_of(output_).parent_path() / p.name).string();
-    p.output = OutputFile::open(path, {.inputs = &resources_.files_read(), .report_replaced = true}, diag_);
+    p.output = OutputFile::open(
+        path, {.inputs = &resources_.files_read(), .written = &resources_.files_written(), .report_replaced = true},
+        diag_);
     if (!p.output) return false;
     p.output->write(*p.file->bytes);
   }

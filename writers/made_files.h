@@ -17,8 +17,9 @@ std::filesystem::path stem_of(const std::string& output);
 
 class MadeFiles {
  public:
-  /// Made files of the scene that is written to `output`; "-": there are no files next to it.
-  MadeFiles(const Scene& scene, const Resources& resources, std::string output, Diagnostics& diag);
+  /// Made files of the scene that is written to `output`; "-": there are no files next to it. They begin with the name
+  /// of the output, or lie in a folder that is named after it (`own_folder`).
+  MadeFiles(const Scene& scene, const Resources& resources, std::string output, bool own_folder, Diagnostics& diag);
 
   /// The url under which the scene that is written finds a file that was made; it will be written. Other urls stay as
   /// they are. A name that the scene has for another file gets a number.
@@ -39,7 +40,7 @@ class MadeFiles {
   const std::string& name_of(const MadeFile& file);
 
   const Resources& resources_;
-  std::string output_;
+  std::string output_, beginning_;
   Diagnostics& diag_;
   std::set<std::string, std::less<>> taken_;  // urls of the world
   std::vector<Placed> placed_;

@@ -6,7 +6,8 @@ namespace wrlkit {
 
 bool NamedFiles::write() {
   for (const NamedFile& file : resources_.take_named()) {
-    auto out = OutputFile::open(file.path, {.inputs = &resources_.files_read()}, diag_);
+    auto out = OutputFile::open(file.path, {.inputs = &resources_.files_read(), .written = &resources_.files_written()},
+                                diag_);
     if (!out) return false;
     out->write(file.bytes);
     files_.push_back(std::move(*out));

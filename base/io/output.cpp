@@ -98,7 +98,8 @@ struct OutputFile::State {
 
   std::string name;  // as the user gave it
   const FilesRead* inputs = nullptr;
-  bool is_input = false;
+  FilesWritten* written = nullptr;
+  bool is_input = false, is_foreign = false;
   bool report_replaced = false, has_replaced_another = false;
   fs::path target;
   fs::path temporary;  // where the file system does not support files without a name
@@ -167,7 +168,7 @@ struct OutputFile::State {
     else if (!S_ISREG(there.st_mode)) {
       kind = direct;
       take(::open(target.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY));
-    } else if (refuses_input())
+    } else if (refuses_input() || refuses_foreign())
       return;
     else if (access(target.c_str(), W_OK) != 0)
       error = errno;
@@ -182,6 +183,13 @@ struct OutputFile::State {
     is_input = inputs && inputs->has(target.string());
     if (is_input) error = EEXIST;
     return is_input;
+  }
+
+  /// Whether the target is a file that others have made.
+  bool refuses_foreign() {
+    is_foreign = written && written->may_replace && !written->may_replace(name);
+    if (is_foreign) error = EEXIST;
+    return is_foreign;
   }
 
   void open_temporary() {
@@ -257,7 +265,9 @@ struct OutputFile::State {
     if (!error && kind == standard_output) copy_to_standard_output();
     if (!error && kind == replace) put_in_place();
     if (int late = fd.close(); late && !error) error = late;
-    if (!error) made_folders.clear();
+    if (error) return;
+    made_folders.clear();
+    if (written) written->add(name);
   }
 
   void copy_to_standard_output() {
@@ -312,11 +322,12 @@ struct OutputFile::State {
   }
 
   bool report(Diagnostics& diag) const {
-    const auto why = is_input ? "it is one of the files that were read; choose another name"
-                     : !unmade.empty()
-                         ? "the folder '" + unmade + "' cannot be made: " + std::generic_category().message(error)
-                     : kind == direct && error == ENOSPC ? "there is no space left"
-                                                         : reason(error, target);
+    const auto why =
+        is_input          ? "it is one of the files that were read; choose another name"
+        : is_foreign      ? "it was there before, and not made by this run or an earlier one; --overwrite replaces it"
+        : !unmade.empty() ? "the folder '" + unmade + "' cannot be made: " + std::generic_category().message(error)
+        : kind == direct && error == ENOSPC ? "there is no space left"
+                                            : reason(error, target);
     if (error) diag.report(Diag::cannot_write, {}, name, why);
     if (!error && has_replaced_another) diag.report(Diag::file_replaced, {}, name);
     return error == 0;
@@ -333,6 +344,7 @@ std::optional<OutputFile> OutputFile::open(const std::string& path, OutputOption
   state->name = path;
   state->target = behind_links(path);
   state->inputs = options.inputs;
+  state->written = options.written;
   state->report_replaced = options.report_replaced;
   if (path == "-") state->kind = State::standard_output;
   if (options.gzip) state->gzip = std::make_unique<Gzip>();

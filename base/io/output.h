@@ -11,6 +11,7 @@
 
 #include "base/diagnostics.h"
 #include "base/io/files_read.h"
+#include "base/io/files_written.h"
 #include "base/io/sink.h"
 
 namespace wrlkit {
@@ -18,6 +19,7 @@ namespace wrlkit {
 struct OutputOptions {
   bool gzip = false;                  // RFC 1952; without time and name, so that the same bytes give the same file
   const FilesRead* inputs = nullptr;  // a file of these is not replaced; they must outlive the output
+  FilesWritten* written = nullptr;    // where it is noted; must outlive the output, too
   bool report_replaced = false;       // a file of other contents that is replaced: for names that nobody has chosen
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/io/uri.h"
 #include "base/text/base64.h"
 #include "base/text/blanks.h"
 #include "base/text/letter_case.h"
@@ -18,28 +19,6 @@ std::string scheme(std::string_view url) {
       !std::ranges::all_of(s, allowed))
     return {};
   return lower_case(s);
-}
-
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  c = static_cast<char>(c | 0x20);
-  return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
-/// A '%' that no two hexadecimal digits follow is itself.
-std::string percent_decode(std::string_view s) {
-  std::string out;
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    int high = s[i] == '%' && i + 2 < s.size() ? hex_digit(s[i + 1]) : -1;
-    int low = high >= 0 ? hex_digit(s[i + 2]) : -1;
-    if (low < 0)
-      out += s[i];
-    else {
-      out += static_cast<char>(high << 4 | low);
-      i += 2;
-    }
-  }
-  return out;
 }
 
 /// The path in "file:..." (RFC 8089), whose forms on other systems are "file:///C:/x", "file:///C|/x" and

@@ -95,7 +95,7 @@ TEST_CASE("made files: they are written beside the world, under names that it ha
   w.resources.add_made({"unused.png", bytes("U")});
   w.resources.add_made({"kept.exr", bytes("E"), true});
   folder.write("room.b.png", "another");
-  MadeFiles files(w.scene(), w.resources, folder / "room.wrl.gz", w.diag);
+  MadeFiles files(w.scene(), w.resources, folder / "room.wrl.gz", false, w.diag);
   CHECK(files.place(a) == "room.a_2.png");
   CHECK(files.place(a) == "room.a_2.png");
   CHECK(files.place(b) == "room.b.png");
@@ -114,7 +114,7 @@ TEST_CASE("made files: urls name files with characters that mean something in a 
   TempFolder folder;
   Lit w("Shape { appearance Appearance { texture ImageTexture { url \"at%20100%25.a.png\" } } }");
   const auto a = w.resources.add_made({"a.png", std::make_shared<const std::string>("A")});
-  MadeFiles files(w.scene(), w.resources, folder / "at 100%.wrl", w.diag);
+  MadeFiles files(w.scene(), w.resources, folder / "at 100%.wrl", false, w.diag);
   CHECK(files.place(a) == "at%20100%25.a_2.png");
   REQUIRE((files.write() && files.commit()));
   CHECK(folder.read("at 100%.a_2.png") == "A");

@@ -32,14 +32,15 @@ void use(const FileLookup& lookup, JournalLine& line) {
                         found ? hash_of_file(lookup.result.path).value_or(ContentHash{}) : ContentHash{}});
 }
 
-/// The first error, in one line.
+/// The first error, in one line; why nothing could be written comes before what was wrong with the input.
 std::string cause_in(const Diagnostics& diag) {
-  for (const auto& m : diag.messages())
-    if (m.severity == Severity::error) {
-      const auto text = message_text(m, diag.sources(), false);
-      return text.substr(0, text.find('\n'));
-    }
-  return "";
+  const auto is_error = [](const Message& m) { return m.severity == Severity::error; };
+  const auto all = diag.messages();
+  auto found = std::ranges::find(all, Diag::cannot_write, &Message::id);
+  if (found == all.end()) found = std::ranges::find_if(all, is_error);
+  if (found == all.end()) return "";
+  const auto text = message_text(*found, diag.sources(), false);
+  return text.substr(0, text.find('\n'));
 }
 
 bool copy(const std::string& from, const std::string& to, std::string& cause) {
@@ -53,17 +54,35 @@ bool copy(const std::string& from, const std::string& to, std::string& cause) {
   return false;
 }
 
-bool convert(const Flags& flags, const std::function<void(Scene&)>& last, JournalLine& line) {
+/// A file below a folder as it is called there.
+std::string name_below(const std::string& folder, const std::string& path) {
+  std::error_code fault;
+  return fs::weakly_canonical(path, fault).lexically_relative(fs::weakly_canonical(folder, fault)).generic_string();
+}
+
+/// What a conversion is to do besides what its flags say.
+struct ConversionExtras {
+  std::function<void(Scene&)> last;                     // to the scene, before it is written
+  std::function<bool(const std::string&)> may_replace;  // files that are there
+  std::function<void(const std::string&)> take;         // files that were written
+};
+
+bool convert(const Flags& flags, const ConversionExtras& extras, JournalLine& line) {
   Session s(flags);
   if (!prepare_conversion(s)) {
     line.cause = "the recipe does not fit";
     return false;
   }
-  const bool made = read_input(s) && write_world(s, save_options(flags), last);
+  bool made = read_input(s);
+  if (made) {
+    s.resources().files_written().may_replace = extras.may_replace;
+    made = static_cast<bool>(write_world(s, save_options(flags), extras.last));
+  }
   line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
   line.messages = messages_json(s.diag());
   if (!made) line.cause = cause_in(s.diag());
   for (const auto& lookup : s.document().lookups()) use(lookup, line);
+  if (made) std::ranges::for_each(s.resources().files_written().paths(), extras.take);
   return made;
 }
 
@@ -124,7 +143,8 @@ bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan) {
   return write_text_file(run_recipe(work.out), recipe_text(options, work.flags.warnings, s.pipeline()));
 }
 
-void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line) {
+void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, const DoneBefore& before,
+            JournalLine& line) {
   const auto target = (fs::path(work.out) / job.output).string();
   std::error_code none;
   fs::create_directories(fs::path(target).parent_path(), none);
@@ -136,11 +156,17 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     flags.inputs = {job.input.path};
     flags.output = target;
     flags.load.allow_paths = allowed_folders(work, plan, job);
+    flags.save.own_folder = true;
     flags.save.keep_urls = work.text && job.input.mirrored;
-    convert(flags,
-            flags.save.keep_urls ? [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); }
-                                 : std::function<void(Scene&)>(),
-            line);
+    ConversionExtras extras;
+    if (flags.save.keep_urls)
+      extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); };
+    extras.may_replace = [&](const std::string& path) { return before.may_replace(path); };
+    extras.take = [&](const std::string& path) {
+      if (auto name = name_below(work.out, path); name != job.output)
+        line.companions.push_back({std::move(name), fs::file_size(path, none)});
+    };
+    convert(flags, extras, line);
   }
   if (is_made(line.state)) {
     line.output_bytes = fs::file_size(target, none);
@@ -148,19 +174,34 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
   }
 }
 
-DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(work), plan_(plan) {
+DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan, bool overwrite) : work_(work), plan_(plan) {
   read_journals(corpus_folder(work.out), [&](JournalLine&& l) {
-    known_[l.output] = {l.work, l.input_hash, l.output_bytes, l.state, std::move(l.files)};
+    for (const auto& file : l.companions) companions_.insert(file.path);
+    known_[l.output] = {l.work, l.input_hash, l.output_bytes, l.state, std::move(l.files), std::move(l.companions)};
   });
+  if (!overwrite) begun_ = time_of_first_run(work.out);
+}
+
+/// Files that are older than the first run, and in no journal, are somebody else's.
+bool DoneBefore::may_replace(const std::string& path) const {
+  if (!begun_) return true;
+  const auto changed = change_time(path);
+  if (!changed || *changed >= *begun_) return true;
+  const auto name = name_below(work_.out, path);
+  return known_.contains(name) || companions_.contains(name);
 }
 
 std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {
-  const auto at = known_.find(name_in_journal(job.output));
+  const auto at = known_.find(job.output);
   if (at == known_.end() || at->second.work != work_.hash) return std::nullopt;
   const auto& known = at->second;
   std::error_code fault;
   if (is_made(known.state) && (fs::file_size(fs::path(work_.out) / job.output, fault) != known.output_bytes || fault))
     return std::nullopt;
+  const auto is_there = [&](const CompanionFile& file) {
+    return fs::file_size(fs::path(work_.out) / file.path, fault) == file.bytes && !fault;
+  };
+  if (!std::ranges::all_of(known.companions, is_there)) return std::nullopt;
   if (hash_of_file(job.input.path) != known.input) return std::nullopt;
   for (const auto& f : known.files)
     if (!still_the_same(job, f)) return std::nullopt;

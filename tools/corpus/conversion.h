@@ -3,8 +3,10 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "tools/cli/flags.h"
+#include "tools/corpus/first_run.h"
 #include "tools/corpus/journal.h"
 
 namespace wrlkit {
@@ -28,18 +30,18 @@ bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan);
 /// Nothing, and why, when the recipe is none.
 std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& why);
 
-/// Does a job and fills in what the journal wants to know of it.
-void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, JournalLine& line);
-
 /// Knows what was done before, by the journals.
 class DoneBefore {
  public:
-  DoneBefore(const CorpusWork& work, const CorpusPlan& plan);
+  /// `overwrite`: files of others may be replaced.
+  DoneBefore(const CorpusWork& work, const CorpusPlan& plan, bool overwrite);
   /// The state that a job ended in when it was done with the same program and recipe from the same input and the same
   /// files behind it, and what was made then is still there.
   std::optional<JobState> state_of(const CorpusJob& job);
   /// Whether an earlier run has worked on that output.
-  bool has(const CorpusJob& job) const { return known_.contains(name_in_journal(job.output)); }
+  bool has(const CorpusJob& job) const { return known_.contains(job.output); }
+  /// Whether a file that is there may be replaced: a run has made it.
+  bool may_replace(const std::string& path) const;
 
  private:
   struct Known {
@@ -47,14 +49,21 @@ class DoneBefore {
     std::uint64_t output_bytes;
     JobState state;
     std::vector<UsedFile> files;
+    std::vector<CompanionFile> companions;
   };
   bool still_the_same(const CorpusJob& job, const UsedFile& file);
   const ContentHash& hash(const std::string& path);
 
   const CorpusWork& work_;
   const CorpusPlan& plan_;
+  std::optional<FileTime> begun_;                        // the first run; none: any file may be replaced
+  std::unordered_set<std::string> companions_;           // of all outputs
   std::unordered_map<std::string, Known> known_;         // by output
   std::unordered_map<std::string, ContentHash> hashes_;  // of files that inputs refer to
 };
+
+/// Does a job and fills in what the journal wants to know of it.
+void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, const DoneBefore& before,
+            JournalLine& line);
 
 }  // namespace wrlkit

@@ -4,17 +4,29 @@
 
 #include <algorithm>
 
+#include "base/io/uri.h"
 #include "base/text/json.h"
 #include "base/text/json_reader.h"
+#include "base/text/utf8.h"
 
 namespace wrlkit {
 namespace {
 
+constexpr std::string_view escaped_name = "bytes:";
 constexpr std::string_view states[] = {"made", "made-partly", "failed", "crashed", "timeout", "no-memory"};
 
 }  // namespace
 
 std::string_view to_string(JobState s) { return states[static_cast<int>(s)]; }
+
+std::string name_to_json(const std::string& name) {
+  if (is_utf8(name) && !name.starts_with(escaped_name)) return name;
+  return std::string(escaped_name) + uri_of(name);
+}
+
+std::string name_from_json(std::string_view text) {
+  return text.starts_with(escaped_name) ? percent_decode(text.substr(escaped_name.size())) : std::string(text);
+}
 
 std::string to_json(const JournalLine& l) { return json_of(l); }
 
@@ -23,13 +35,14 @@ std::optional<JournalLine> journal_line(std::string_view text) {
   if (doc.parse(text)) return std::nullopt;
   const auto json = doc.root();
   JournalLine l;
+  const auto name = [](Json text) { return name_from_json(text.text()); };
   auto word = [&](std::string_view key) { return std::string(json[key].text()); };
   auto whole = [&](std::string_view key) { return json[key].whole().value_or(0); };
   const auto state = std::ranges::find(states, json["state"].text());
   if (!json.is_object() || state == std::end(states)) return std::nullopt;
   l.state = static_cast<JobState>(state - std::begin(states));
-  l.input = word("input");
-  l.output = word("output");
+  l.input = name(json["input"]);
+  l.output = name(json["output"]);
   l.cause = word("cause");
   l.work = hash_from(json["work"].text());
   l.input_hash = hash_from(json["input_hash"].text());
@@ -42,17 +55,10 @@ std::optional<JournalLine> journal_line(std::string_view text) {
   l.output_bytes = whole("output_bytes");
   l.codecs = json["codecs"].boolean();
   for (auto f : json["files"])
-    l.files.push_back({std::string(f["referrer"].text()), std::string(f["url"].text()), std::string(f["path"].text()),
-                       hash_from(f["hash"].text())});
+    l.files.push_back({name(f["referrer"]), name(f["url"]), name(f["path"]), hash_from(f["hash"].text())});
+  for (auto f : json["companions"]) l.companions.push_back({name(f["path"]), f["bytes"].whole().value_or(0)});
   l.messages = json["messages"].source();
   return l;
-}
-
-std::string name_in_journal(const std::string& name) {
-  if (std::ranges::all_of(name, [](char c) { return static_cast<unsigned char>(c) < 0x80; })) return name;
-  JournalLine line;
-  line.output = name;
-  return journal_line(to_json(line))->output;
 }
 
 std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std::string& why) {

@@ -20,6 +20,10 @@ enum class JobState : std::uint8_t { made, made_partly, failed, crashed, timeout
 std::string_view to_string(JobState);
 inline bool is_made(JobState s) { return s == JobState::made || s == JobState::made_partly; }
 
+/// A name as JSON can hold it: as it is, or, where it is not UTF-8, "bytes:" and its bytes as in a url: "bytes:lat%E9".
+std::string name_to_json(const std::string& name);
+std::string name_from_json(std::string_view text);
+
 /// A file that the input refers to: what asked for it, by which url or path, what was found, and its contents.
 struct UsedFile {
   std::string referrer, url;
@@ -27,10 +31,21 @@ struct UsedFile {
   ContentHash hash;
 
   void fields(auto&& f) const {
-    f("referrer", referrer);
-    f("url", url);
-    f("path", path);
+    f("referrer", name_to_json(referrer));
+    f("url", name_to_json(url));
+    f("path", name_to_json(path));
     f("hash", hash.hex());
+  }
+};
+
+/// A file that was written next to an output.
+struct CompanionFile {
+  std::string path;  // below the folder of the run
+  std::uint64_t bytes = 0;
+
+  void fields(auto&& f) const {
+    f("path", name_to_json(path));
+    f("bytes", bytes);
   }
 };
 
@@ -44,12 +59,13 @@ struct JournalLine {
   std::uint64_t input_bytes = 0, output_bytes = 0;
   ContentHash input_hash, output_hash;
   std::vector<UsedFile> files;
+  std::vector<CompanionFile> companions;
   std::string messages;  // JSON, as --report has them
   bool codecs = false;   // a worker has loaded the codecs for pictures: told to the run, not kept
 
   void fields(auto&& f) const {
-    f("input", input);
-    f("output", output);
+    f("input", name_to_json(input));
+    f("output", name_to_json(output));
     f("state", state);
     if (!cause.empty()) f("cause", cause);
     f("work", work.hex());
@@ -65,6 +81,7 @@ struct JournalLine {
     }
     if (codecs) f("codecs", true);
     f("files", files);
+    if (!companions.empty()) f("companions", companions);
     f("messages", JsonText{messages.empty() ? "[]" : messages});
   }
 };
@@ -72,9 +89,6 @@ struct JournalLine {
 std::string to_json(const JournalLine&);
 /// Nothing when the text is not a whole line.
 std::optional<JournalLine> journal_line(std::string_view text);
-/// As a line that was read back has a name: JSON cannot hold bytes that are not UTF-8.
-std::string name_in_journal(const std::string& name);
-
 class Journal {
  public:
   /// Opens a shard's journal to write behind what it has. Nothing, and why, when it cannot be written or another run

@@ -22,8 +22,8 @@ struct ReportRow {
   std::optional<Look> look;
 
   void fields(auto&& f) const {
-    f("input", input);
-    f("output", output);
+    f("input", name_to_json(input));
+    f("output", name_to_json(output));
     f("state", state);
     if (!cause.empty()) f("cause", cause);
     f("seconds", seconds);
@@ -62,7 +62,7 @@ struct Change {
   bool worse = false;
 
   void fields(auto&& f) const {
-    f("output", output);
+    f("output", name_to_json(output));
     f("what", what);
     f("worse", worse);
   }

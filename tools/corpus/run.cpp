@@ -71,11 +71,21 @@ std::string signal_text(int signal) {
                      strsignal(signal));
 }
 
-/// Whether the outputs would be written among the inputs.
+/// Whether the outputs would be written among the inputs: into one of their folders, or into one below with scenes
+/// that no run has made.
 bool is_input_folder(const CorpusPlan& plan, const std::string& out) {
   std::error_code none;
   const auto there = fs::weakly_canonical(out, none);
-  return std::ranges::any_of(plan.roots, [&](const std::string& r) { return fs::weakly_canonical(r, none) == there; });
+  bool is_below = false;
+  for (const auto& root : plan.roots) {
+    const auto folder = fs::weakly_canonical(root, none);
+    if (folder == there) return true;
+    is_below |= !there.lexically_relative(folder).native().starts_with("..");
+  }
+  if (!is_below || !fs::is_directory(there, none) || fs::exists(corpus_folder(out), none)) return false;
+  std::string unsaid;
+  const auto inputs = gather_inputs({out}, {}, unsaid);
+  return inputs && !inputs->files.empty();
 }
 
 struct Planned {
@@ -133,7 +143,7 @@ class Run {
         plan_(planned.plan),
         complete_(planned.left_out.empty()),
         journal_(std::move(journal)),
-        before_(work, plan_),
+        before_(work, plan_, flags.overwrite),
         host_(host_name()) {
     for (std::uint32_t i = 0; i < plan_.jobs.size(); ++i)
       if (flags.shard.empty() || plan_.jobs[i].shard == planned.shard.index) {
@@ -225,7 +235,8 @@ class Run {
   bool was_done(std::uint32_t at) {
     const auto& job = plan_.jobs[at];
     const auto state = before_.state_of(job);
-    if (!state || (flags_.retry && !is_made(*state))) return false;
+    const bool tries_again = flags_.retry || flags_.overwrite;  // a file of others may have been in the way
+    if (!state || (tries_again && !is_made(*state))) return false;
     status_->add(*state, job.cost, true);
     return true;
   }
@@ -253,7 +264,7 @@ class Run {
     JournalLine line;
     const bool had_codecs = image_codecs_are_loaded();
     const ProcessUsage before;
-    do_job(work_, plan_, plan_.jobs[at], line);
+    do_job(work_, plan_, plan_.jobs[at], before_, line);
     const ProcessUsage after;
     line.codecs = !had_codecs && image_codecs_are_loaded();
     line.started = before.time;
@@ -452,6 +463,7 @@ int run_corpus_run(const Flags& flags) {
                          flags.output, counted(found.count, "file"), found.first));
     return usage;
   }
+  note_first_run(flags.output);  // where that fails, the journal cannot be written either
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
     complain("corpus run", why);

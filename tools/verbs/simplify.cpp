@@ -87,10 +87,11 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
   return o;
 }
 
-bool write_world(Session& s, const std::string& path, const Scene& scene) {
+/// `files_folder`: that all of the scenes refer to.
+bool write_world(Session& s, const std::string& path, const Scene& scene, const std::string& files_folder) {
   Saved saved;
   SaveOptions options = s.flags().save;
-  options.files_folder = "files";  // that all of the scenes refer to
+  options.files_folder = files_folder;
   options.is_derived = true;
   return write_vrml_file({scene, {}, s.context(), options, *output_of(path), nullptr, saved});
 }
@@ -243,13 +244,14 @@ template <class World>
 bool write_worlds(Session& s, const World& world, const Names& names, WrittenWorlds& all) {
   all = facts_of(world);
   if (!names.file.empty()) return write_one_file(s, world, names.file, all);
+  const auto folder = std::filesystem::path(names.base).filename().string() + "_files";
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     auto& p = all.points[i];
     p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
-    if (!write_world(s, p.file, world.scene_at(i))) return false;
+    if (!write_world(s, p.file, world.scene_at(i), folder)) return false;
   }
   all.lod_file = names.base + "_lod" + names.ending;
-  return write_world(s, all.lod_file, world.scene_with_levels());
+  return write_world(s, all.lod_file, world.scene_with_levels(), folder);
 }
 
 /// Instances of prototypes replaced by their bodies; nothing when there are none, or too many.

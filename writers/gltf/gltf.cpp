@@ -56,7 +56,8 @@ std::string without_folders(std::string name) {
 /// Files that take their places together, the first one last, because it refers to the others.
 class Files {
  public:
-  Files(const FilesRead* inputs, Diagnostics& diag) : inputs_(inputs), diag_(diag) {}
+  /// `resources`: may be null.
+  Files(const Resources* resources, Diagnostics& diag) : resources_(resources), diag_(diag) {}
 
   /// The file that the output is named after. Where it replaces one, what is next to that goes with it, unreported.
   bool open(const std::filesystem::path& path) {
@@ -76,12 +77,15 @@ class Files {
 
  private:
   bool add(const std::filesystem::path& path, bool report_replaced) {
-    auto file = OutputFile::open(path.string(), {.inputs = inputs_, .report_replaced = report_replaced}, diag_);
+    const OutputOptions options{.inputs = resources_ ? &resources_->files_read() : nullptr,
+                                .written = resources_ ? &resources_->files_written() : nullptr,
+                                .report_replaced = report_replaced};
+    auto file = OutputFile::open(path.string(), options, diag_);
     if (file) files_.push_back(std::move(*file));
     return file.has_value();
   }
 
-  const FilesRead* inputs_;
+  const Resources* resources_;
   Diagnostics& diag_;
   std::vector<OutputFile> files_;
   bool is_new_ = false;
@@ -94,7 +98,7 @@ class Writer {
       : scene_(scene),
         options_(options),
         path_(path),
-        inputs_(resources ? &resources->files_read() : nullptr),
+        resources_(resources),
         diag_(diag),
         summary_(summary),
         textures_(scene, resources, options.textures, diag),
@@ -107,7 +111,7 @@ class Writer {
         makers_{scene, options, meshes_, materials_, animations_, options.extras ? &extras_ : nullptr, diag} {}
 
   bool write() {
-    Files files(inputs_, diag_);
+    Files files(resources_, diag_);
     if (!files.open(path_)) return false;
     return build([&](Parts& parts) {
       if (!pictures_inside() && !pictures_beside(parts, files)) return false;
@@ -211,10 +215,11 @@ class Writer {
 
   bool pictures_beside(Parts& parts, Files& files) {
     std::unordered_map<std::string, int> taken;
+    const auto beginning = stem() + (options_.own_folder ? "_files/textures/" : "_");
     for (const auto& picture : textures_.pictures()) {
       const std::string own = without_folders(picture.name);
-      std::string name = stem() + "_" + own;
-      while (taken[name]++ > 0) name = stem() + "_" + std::to_string(taken[name]) + "_" + own;
+      std::string name = beginning + own;
+      while (taken[name]++ > 0) name = beginning + std::to_string(taken[name]) + "_" + own;
       parts.picture_uris.push_back(uri_of(name));
       if (!files.write(beside(name), {picture.bytes})) return false;
     }
@@ -339,7 +344,7 @@ class Writer {
   const Scene& scene_;
   const GltfOptions& options_;
   std::string path_;
-  const FilesRead* inputs_;
+  const Resources* resources_;
   Diagnostics& diag_;
   GltfSummary* summary_;
   Textures textures_;

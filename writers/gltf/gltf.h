@@ -104,8 +104,9 @@ struct GltfOptions {
   /// "source".
   std::vector<std::string> sources = {};
   bool gpu_instancing =
-      false;           // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (instances.h)
-  bool extras = true;  // what glTF cannot express is kept
+      false;                // children that only place one mesh as a table, by EXT_mesh_gpu_instancing (instances.h)
+  bool own_folder = false;  // pictures next to a .gltf lie in a folder that is named after it
+  bool extras = true;       // what glTF cannot express is kept
   bool facts_only =
       false;  // of that, what nodes say that draw nothing, Anchors and the like; not what only serves to make
               // the same VRML again. Groups without a name that hold one node are then one node with it
