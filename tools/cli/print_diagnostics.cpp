@@ -56,9 +56,10 @@ std::string message_text(const Message& m, const Sources& sources, bool colours)
 std::string messages_text(const Diagnostics& diag, bool colours, bool quiet) {
   std::string out;
   std::map<Diag, std::pair<std::size_t, Severity>> printed;
+  std::set<std::string> said;  // a file that is read twice says everything twice
   for (const auto& m : diag.messages()) {
     if (quiet && m.severity != Severity::error) continue;
-    out += message_text(m, diag.sources(), colours);
+    if (auto text = message_text(m, diag.sources(), colours); said.insert(text).second) out += text;
     auto& [n, severity] = printed[m.id];
     ++n;
     severity = m.severity;  // -Werror may have changed it

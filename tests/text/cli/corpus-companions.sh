@@ -64,3 +64,4 @@ shape none.png | tee p/main.wrl p/units/a.wrl > log
 run p -o p/units
 run p -o p/new
 run p -o p/new
+true
