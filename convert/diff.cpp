@@ -21,12 +21,16 @@ std::optional<WorldFacts> facts_of(Document&& document) {
     facts.materials += scene.is(n, nodes::Material);
   }
   auto& surface = facts.surface.emplace(scene, document.diag());
+  LookCensus looks(scene, document.resources(), document.diag());
   auto gathered = [&](NodeId geometry) -> const Mesh& {
     const Mesh& mesh = meshes.triangles(geometry);
     surface.add(geometry, mesh);
+    looks.add(geometry, mesh);
     return mesh;
   };
   facts.geometry = count_geometry(scene, meshes.polygons, gathered);
+  facts.looks = looks.areas();
+  facts.behaviour = count_behaviour(scene);
   return facts;
 }
 
@@ -47,6 +51,12 @@ WorldDifference difference(WorldFacts a, WorldFacts b) {
   WorldDifference d{.a = std::move(a), .b = std::move(b)};
   std::ranges::set_difference(d.a.names, d.b.names, std::back_inserter(d.missing));
   std::ranges::set_difference(d.b.names, d.a.names, std::back_inserter(d.added));
+  d.looks = difference(d.a.looks, d.b.looks);
+  const auto &does = d.a.behaviour, &did = d.b.behaviour;
+  d.routes = difference(does.routes, did.routes);
+  d.animations = difference(does.animations, did.animations);
+  d.viewpoints = difference(does.viewpoints, did.viewpoints);
+  d.lights = difference(does.lights, did.lights);
   d.bounds = apart(d.a.geometry.bounds, d.b.geometry.bounds);
   if (!d.a.surface->complete() || !d.b.surface->complete()) return d;
   d.surface = measure_deviation(d.a.surface->triangles(), d.b.surface->triangles());

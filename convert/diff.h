@@ -1,4 +1,4 @@
-// How two scenes differ in what they show, and in their names and nodes.
+// How two scenes differ in what they show and do, and in their names and nodes.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "convert/behaviour_census.h"
 #include "convert/document.h"
+#include "convert/look_census.h"
 #include "convert/shown_surface.h"
 #include "geometry/deviation.h"
 
@@ -20,6 +22,8 @@ struct WorldFacts {
   std::set<std::string, std::less<>> names;                 // when prototypes and Inlines are expanded
   std::uint64_t materials = 0;                              // the same
   GeometryCensus geometry;
+  std::map<SurfaceLook, double> looks;  // and their areas
+  BehaviourCensus behaviour;
   std::optional<ShownSurface> surface;
 };
 
@@ -29,6 +33,8 @@ struct WorldDifference {
   double bounds = 0;                             // the largest difference of a number; infinite: one scene has none
   std::optional<Deviation> surface;              // none: too large to be measured
   double of_diagonal = 0;
+  LookDifference looks;
+  SaidDifference routes, animations, viewpoints, lights;
 };
 
 /// Nothing when the scene cannot be expanded, which is reported. The document is expanded; what is measured stays when

@@ -88,7 +88,9 @@ constexpr Verb all_verbs[] = {
      run_cat, ".wrl .wrz .wrl.gz .vrml", "",
      "it prints the scene itself; write that to a file with -o, or use wrlkit info --json"},
     {"diff",
-     "compare two scenes: structure, names, materials, and the distance between their surfaces; the exit code is 0 "
+     "compare two scenes: structure, names, the distance between their surfaces, colours and pictures, ROUTEs, "
+     "animations, "
+     "Viewpoints and lights; the exit code is 0 "
      "even if they differ",
      "wrlkit diff plant.wrl simpler.wrl\n  wrlkit diff plant.wrl simpler.wrl --json",
      [](CLI::App& v, Flags& f) {

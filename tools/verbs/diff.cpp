@@ -16,6 +16,10 @@ namespace wrlkit {
 
 namespace {
 
+std::array<std::pair<std::string_view, SaidDifference>, 4> behaviour_of(const WorldDifference& d) {
+  return {{{"routes", d.routes}, {"animations", d.animations}, {"viewpoints", d.viewpoints}, {"lights", d.lights}}};
+}
+
 std::string difference_json(const WorldDifference& d) {
   return json_text([&](JsonOut& json) {
     json.object([&] {
@@ -29,6 +33,10 @@ std::string difference_json(const WorldDifference& d) {
       json.member("names", json_object("missing", std::span<const std::string_view>(d.missing), "added",
                                        std::span<const std::string_view>(d.added)));
       json.member("materials", std::span(materials));
+      json.member("looks", json_object("share", d.looks.share, "gone", std::span<const LookChange>(d.looks.gone),
+                                       "made", std::span<const LookChange>(d.looks.made)));
+      for (const auto& [name, said] : behaviour_of(d))
+        json.member(name, json_object("gone", said.gone, "made", said.made));
     });
   });
 }
@@ -72,12 +80,39 @@ std::string surface_text(const WorldDifference& d) {
   if (!d.surface) return "too large to be measured";
   const Deviation& s = *d.surface;
   if (std::isinf(s.max)) return "one of them has none";
-  if (s.max == 0 && s.normal_max == 0) return "the same";
+  const double rounding = 1e-12 * diagonal(d.a.geometry.bounds);
+  if (s.max <= rounding && s.normal_max == 0) return "the same";
   auto degrees = [](double radians) { return radians * 180 / std::numbers::pi; };
   return fmt::format(
-      "{:.4g} m rms ({:.2g} of the diagonal), {:.4g} m at most, at {:.6g} {:.6g} {:.6g}; normals {:.2g} degrees on "
+      "{:.4g} m rms ({:.2g} of the diagonal), {:.4g} m at most, at {:.6g} {:.6g} {:.6g}; normals {:.3g} degrees on "
       "average",
       s.rms, d.of_diagonal, s.max, s.where[0], s.where[1], s.where[2], degrees(s.normal_mean));
+}
+
+/// "#cc0000 (40 %), #0000cc (3 %), ...".
+std::string look_list(const std::vector<LookChange>& all) {
+  constexpr std::size_t most = 3;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
+    out += fmt::format("{}{} ({:.3g} %)", i ? ", " : "", text_of(all[i].look), 100 * all[i].share);
+  return out + (all.size() > most ? ", ..." : "");
+}
+
+std::string looks_text(const LookDifference& d) {
+  if (!(d.share > 0)) return "the same";
+  std::string out = fmt::format("{:.3g} % of the surface differ", 100 * d.share);
+  if (!d.gone.empty()) out += "; less " + look_list(d.gone);
+  if (!d.made.empty()) out += "; more " + look_list(d.made);
+  return out;
+}
+
+std::string behaviour_text(const WorldDifference& d) {
+  std::string out;
+  for (const auto& [name, said] : behaviour_of(d)) {
+    out += fmt::format("{}{} ", out.empty() ? "" : ", ", name);
+    out += said ? fmt::format("-{} +{}", said.gone, said.made) : "the same";
+  }
+  return out;
 }
 
 std::string difference_text(const WorldDifference& d, const Flags& flags) {
@@ -89,8 +124,9 @@ std::string difference_text(const WorldDifference& d, const Flags& flags) {
   out += fmt::format("  materials {}, different names {}\n", change(d.a.materials, d.b.materials),
                      change(d.a.names.size(), d.b.names.size()));
   out += name_list("missing", d.missing) + name_list("added", d.added);
-  return out + fmt::format("  nodes:{}\n  bounds: {}\n  surface: {}\n", node_changes(d), bounds_text(d.bounds),
-                           surface_text(d));
+  return out + fmt::format("  nodes:{}\n  bounds: {}\n  surface: {}\n  colours and pictures: {}\n  {}\n",
+                           node_changes(d), bounds_text(d.bounds), surface_text(d), looks_text(d.looks),
+                           behaviour_text(d));
 }
 
 }  // namespace

@@ -1,0 +1,29 @@
+// What moves, looks and shines in a scene: ROUTEs, interpolators, Viewpoints, lights, by what they say.
+#pragma once
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "scenegraph/scene.h"
+
+namespace wrlkit {
+
+/// How often each of them is there, by its type and its values, to four digits: of Viewpoints and lights in the world.
+/// Names do not count, for conversions may have to change them.
+using SaidTimes = std::map<std::string, std::size_t>;
+
+struct BehaviourCensus {
+  SaidTimes routes, animations, viewpoints, lights;
+};
+
+/// Of a scene whose prototypes and Inlines are expanded. O(nodes and their values).
+BehaviourCensus count_behaviour(const Scene& scene);
+
+/// How many of two are in one and not in the other.
+struct SaidDifference {
+  std::size_t gone = 0, made = 0;
+  explicit operator bool() const { return gone + made > 0; }
+};
+SaidDifference difference(const SaidTimes& a, const SaidTimes& b);
+
+}  // namespace wrlkit
