@@ -223,6 +223,8 @@ std::string LengthList::print() const { return with_colons(values); }
 
 Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) {
   report_inlines(scene, ctx.diag);
+  if (options.ratios.values.empty() && options.errors.values.empty())
+    ctx.diag.report(Diag::not_simplified, {}, "lod has neither ratios nor errors, so it makes no levels");
   return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_world(scene, options, ctx);
 }
 

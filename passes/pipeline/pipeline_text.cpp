@@ -1,5 +1,6 @@
 // The text form of pipelines.
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "base/text/backslash.h"
@@ -55,6 +56,7 @@ bool has_option(const PassInstance& pass, std::string_view name) {
 
 bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
   std::string value;
+  std::set<std::string, std::less<>> given;
   while (!trim(list).empty()) {
     const auto option = cut(list, ',');
     const auto equals = option.find('=');
@@ -68,6 +70,10 @@ bool set_options(PassInstance& pass, std::string_view list, std::string& why) {
       const auto item = cut(rest, ',');
       if (item.empty() || item.find('=') != item.npos || has_option(pass, item)) break;
       (value += ':') += item;
+    }
+    if (!given.emplace(name).second) {
+      why = "option '" + std::string(name) + "' is given twice";
+      return false;
     }
     if (!pass.set(name, value, why)) {
       if (value.find(';') != value.npos) why += "; commas separate options: {a=1,b=2}";
@@ -123,7 +129,10 @@ bool Pipeline::append(std::string_view text, std::string& why) {
     Step s{info, info->make()};
     if (brace != item.npos) {
       if (item.back() != '}') {
-        why = "'}' is missing behind '" + std::string(name) + "'";
+        const auto end = item.rfind('}');
+        why = end == item.npos ? "'}' is missing behind '" + std::string(name) + "'"
+                               : "'" + std::string(trim(item.substr(end + 1))) + "' behind the '}' of '" +
+                                     std::string(name) + "' is not understood; commas separate passes: weld,lod";
         return false;
       }
       if (!set_options(*s.pass, item.substr(brace + 1, item.size() - brace - 2), why)) {

@@ -243,6 +243,9 @@ bool can_share_standard_output(const Flags& flags, const Verb& verb) {
     fmt::print(stderr, "wrlkit {}: {}: {}\n", spoken_verb(verb.name), option, why);
     return false;
   };
+  const bool prints_text = flags.print_pipeline || flags.print_recipe || flags.print_profile;
+  if (flags.json && prints_text) return refuse("--json", "what is printed then is not JSON");
+  if (flags.json && flags.serve) return refuse("--json", "--serve prints the address of the page; it has no result");
   if (flags.report == "-" && (flags.json || is_output))
     return refuse("--report -", "something else goes to standard output; name a file for the report");
   if (!flags.json || !is_output) return true;
@@ -312,7 +315,7 @@ bool check_option(std::string_view verb, std::string_view option, const std::vec
     o->run_callback();
     return true;
   } catch (const CLI::Error& e) {
-    why = e.what();
+    why = in_our_words(e.what());
     return false;
   }
 }

@@ -128,6 +128,7 @@ class Gatherer {
         return leave_out(name +
                          " is a scene, but a list is expected: the name of a scene in each line; save the scene " +
                          "as a file and name that");
+      if (first && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
       if (line.ends_with('\r')) line.pop_back();
       if (line.empty()) continue;
       if (fs::is_regular_file(line, none))

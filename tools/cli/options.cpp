@@ -365,7 +365,8 @@ void corpus_inputs(CLI::App& verb, Flags& f) {
       ->type_name("DIR");
   format(verb, f, "format of the outputs");
   globs(verb, f);
-  verb.add_option("--base", f.base, "folder to which the paths in lists are relative; default: the current one")
+  verb.add_option("--base", f.base,
+                  "folder below which the outputs of lists keep their paths; default: the current one")
       ->type_name("DIR");
   verb.add_option("--shard", f.shard,
                   "process only a share of the files: 2/8 is the second of eight; auto, auto/8: from the environment "

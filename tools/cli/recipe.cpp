@@ -259,14 +259,16 @@ std::string names_behind(const std::vector<std::string>& warnings, std::string_v
   return names.empty() ? "" : fmt::format("{} = {}\n", key, list_of(names));
 }
 
+constexpr std::string_view where_recipes_stand = " (a file .toml; corpus run takes it first, then the inputs)";
+
 std::optional<Recipe> read(const std::string& path, bool with_passes, std::string& why) {
   std::error_code none;
   if (std::filesystem::is_directory(path, none)) {
-    why = fmt::format("wrlkit: '{}' is a folder; the recipe, a file .toml, comes first, then the inputs\n", path);
+    why = fmt::format("wrlkit: '{}' is a folder, not a recipe{}\n", path, where_recipes_stand);
     return std::nullopt;
   }
   if (!ending_of(path, scene_endings()).empty()) {
-    why = fmt::format("wrlkit: '{}' is a scene; the recipe, a file .toml, comes first, then the inputs\n", path);
+    why = fmt::format("wrlkit: '{}' is a scene, not a recipe{}\n", path, where_recipes_stand);
     return std::nullopt;
   }
   const auto text = read_bytes(path, most_bytes, why);

@@ -77,6 +77,9 @@ bool Session::choose_pipeline(std::string_view standard) {
     fmt::print(stderr, "wrlkit: --print-after: there is no pass '{}'{}\n", after, pass_question(after));
     return false;
   }
+  if (!after.empty() && after != "all" && !runs(after) && !flags_.quiet)
+    fmt::print(stderr, "wrlkit: --print-after has no effect: the pipeline has no pass '{}'; see --print-pipeline\n",
+               after);
   return check_written_files(flags_, pipeline_->written_files());
 }
 

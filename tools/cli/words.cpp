@@ -103,35 +103,6 @@ std::string plain_number(const std::string& text) {
   return std::trunc(value) == value ? fmt::format("{:.0f}", value) : shortest_text(value);
 }
 
-/// What CLI11 says of numbers of values, and of ranges.
-std::string in_our_words(const std::string& what) {
-  const auto needed = between(what, ": At least ", " required but received ");
-  const auto given = between(what, " required but received ", "");
-  if (needed && given) {
-    const auto option = what.substr(0, what.find(": At least "));
-    return option == "IN" ? "IN and OUT are required"
-                          : fmt::format("{}: {} values are needed, not {}", option, *needed, *given);
-  }
-  if (const auto option = between(what, "Could not convert: ", " = "), text = between(what, " = ", "");
-      option && text) {
-    const bool is_list = text->find(' ') != text->npos && text->find(',') == text->npos;
-    return fmt::format("{}: '{}' is not a valid value{}", *option, *text,
-                       is_list ? "; commas separate the values of a list: 1,2,3" : "");
-  }
-  if (const auto option = between(what, "", ": 1 required "); option && what.ends_with(" missing"))
-    return *option + ": a value is missing";
-  const auto value = between(what, "Value ", " not in range "), least = between(what, " not in range ", " to "),
-             most = between(what, " to ", "");
-  double number = 0;
-  if (value && read_number(std::string_view(*value), number) && number >= 1 &&
-      value->find_first_of(".eE") != value->npos)
-    return fmt::format("{}{} is not a whole number", what.substr(0, what.find("Value ")), *value);
-  if (value && least && most)
-    return fmt::format("{}{} is not in the range {} to {}", what.substr(0, what.find("Value ")), *value,
-                       plain_number(*least), plain_number(*most));
-  return what;
-}
-
 /// An option of convert, which `corpus` has not: it belongs to the recipe.
 std::string recipe_hint(std::string_view verb, std::string_view option) {
   if (!verb.starts_with("corpus-")) return {};
@@ -164,6 +135,36 @@ std::string unknown_letter(const std::vector<std::string>& words, const std::vec
 }
 
 }  // namespace
+
+std::string in_our_words(const std::string& what) {
+  const auto needed = between(what, ": At least ", " required but received ");
+  const auto given = between(what, " required but received ", "");
+  if (needed && given) {
+    const auto option = what.substr(0, what.find(": At least "));
+    return option == "IN" ? "IN and OUT are required"
+                          : fmt::format("{}: {} values are needed, not {}", option, *needed, *given);
+  }
+  if (const auto option = between(what, "Could not convert: ", " = "), text = between(what, " = ", "");
+      option && text) {
+    const bool is_list = text->find(' ') != text->npos && text->find(',') == text->npos;
+    return fmt::format("{}: '{}' is not a valid value{}", *option, *text,
+                       is_list ? "; commas separate the values of a list: 1,2,3" : "");
+  }
+  if (const auto option = between(what, "", ": At Most 1 required but received "))
+    return *option + ": only one value can be given";
+  if (const auto option = between(what, "", ": 1 required "); option && what.ends_with(" missing"))
+    return *option + ": a value is missing";
+  const auto value = between(what, "Value ", " not in range "), least = between(what, " not in range ", " to "),
+             most = between(what, " to ", "");
+  double number = 0;
+  if (value && read_number(std::string_view(*value), number) && number >= 1 &&
+      value->find_first_of(".eE") != value->npos)
+    return fmt::format("{}{} is not a whole number", what.substr(0, what.find("Value ")), *value);
+  if (value && least && most)
+    return fmt::format("{}{} is not in the range {} to {}", what.substr(0, what.find("Value ")), *value,
+                       plain_number(*least), plain_number(*most));
+  return what;
+}
 
 std::string spoken_verb(const std::string& verb) {
   return verb.starts_with("corpus-") ? "corpus " + verb.substr(7) : verb;

@@ -13,6 +13,9 @@ std::optional<int> put_verb_first(std::vector<std::string>& words);
 /// "corpus run" for "corpus-run", as users write it.
 std::string spoken_verb(const std::string& verb);
 
+/// What CLI11 says of numbers of values, and of ranges.
+std::string in_our_words(const std::string& what);
+
 /// The same of options without a verb: "wrlkit: there is no option '--versoin'; did you mean '--version'?"; empty when
 /// nothing is wrong with them.
 std::string program_option_fault(const std::vector<std::string>& words);

@@ -98,7 +98,7 @@ int run_corpus_report(const Flags& flags) {
   if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};
   for (const auto& path : paths) {
     if (!write(report, path)) return nothing;
-    if (!flags.quiet) fmt::print(stderr, "{}\n", path);
+    if (!flags.quiet && path != "-") fmt::print(stderr, "{}\n", path);
   }
   return std::ranges::any_of(report.changes, &Change::worse) ? partly : done;
 }

@@ -107,6 +107,10 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
     why = "-o: a folder is needed; standard output is none";
     return fail();
   }
+  if (std::error_code none; !flags.base.empty() && !fs::is_directory(flags.base, none)) {
+    why = "--base: there is no folder '" + flags.base + "'";
+    return fail();
+  }
   if (!flags.shard.empty()) {
     const auto shard = parse_shard(flags.shard, why);
     if (!shard) return fail();

@@ -32,6 +32,7 @@ namespace {
 std::optional<Output> chosen_output(const Flags& flags, const SaveOptions& options) {
   auto named = output_of(flags.output, options);
   if (!flags.is_given("format") || (named && flags.output != "-")) return named;
+  if (!foreign_format(flags.output).empty()) return std::nullopt;  // "out.stl" would be taken for what it is not
   auto to = output_of("x." + flags.format, options);
   if (to) to->path = flags.output;
   return to;
@@ -69,6 +70,10 @@ void add_idle_compression(const Flags& flags, GltfCompression::Method method, st
     if (method == Method::none && flags.is_given(name)) out.push_back({std::string(name), "without --compress"});
   if (method != Method::draco && flags.is_given("draco-level"))
     out.push_back({"draco-level", "without --compress draco"});
+  using Format = GltfTextures::Format;
+  const auto format = save_options(flags).texture_format;
+  if (flags.is_given("texture-quality") && (format == Format::keep || format == Format::png))
+    out.push_back({"texture-quality", "without --texture-format jpeg or webp"});
 }
 
 std::vector<IdleOption> idle_options(const Flags& flags, const Output& to) {

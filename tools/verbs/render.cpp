@@ -160,9 +160,17 @@ bool is_usable(const Flags& f, bool sheet) {
   return true;
 }
 
-/// Options of light, where the mode finds none.
-void warn_of_idle_light(const Flags& flags) {
+constexpr int usual_samples = 16;  // along a side of a pixel, at most, but for paths
+
+/// Options of the camera that others replace, and of light, where the mode finds none.
+void warn_of_idle_options(const Flags& flags) {
+  if (flags.quiet) return;
+  if (!flags.look_at.empty() && flags.fit) fmt::print(stderr, "wrlkit: --fit has no effect with --look-at\n");
+  if (!flags.viewpoint.empty() && (flags.fit || !flags.look_at.empty()))
+    fmt::print(stderr, "wrlkit: --viewpoint has no effect with --{}\n", flags.fit ? "fit" : "look-at");
   if (flags.mode == RenderOptions::Mode::path) return;
+  if (flags.samples > usual_samples)
+    fmt::print(stderr, "wrlkit: more than {} --samples have no effect without --mode path\n", usual_samples);
   for (const char* name : {"lamps", "exposure"})
     if (flags.is_given(name)) fmt::print(stderr, "wrlkit: --{} has no effect without --mode path\n", name);
 }
@@ -177,7 +185,7 @@ int run_render(const Flags& given) {
   Session s(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;
   if (s.printed_pipeline()) return done;
-  warn_of_idle_light(flags);
+  warn_of_idle_options(flags);
   if (sheet) return render_sheet(s);
   const bool made = !flags.compare.empty() ? render_comparison(s)
                     : flags.turntable > 0  ? Turntable(s).make()

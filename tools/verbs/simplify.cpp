@@ -38,6 +38,9 @@ std::string stem_of(const std::string& path) {
   return name == "-" ? "world" : name;
 }
 
+/// "pump.wpm", "pump.wpm.gz".
+bool is_stream(const std::string& path) { return path.ends_with(".wpm") || path.ends_with(".wpm.gz"); }
+
 /// The name of a file, as it seems, of a format that is not written: "levels.stl".
 bool is_of_no_output(const std::string& path) {
   const auto ending = fs::path(path).extension().string();
@@ -65,10 +68,10 @@ std::optional<WorldSimplifyOptions> world_options_of(const Flags& f) {
     return std::nullopt;
   }
   if (f.progressive && output_of(f.output)) {
-    fmt::print(stderr, "wrlkit simplify: --progressive writes a .wpm file into a folder, not '{}'\n", f.output);
+    fmt::print(stderr, "wrlkit simplify: --progressive writes a .wpm file, or one into a folder, not '{}'\n", f.output);
     return std::nullopt;
   }
-  if (is_of_no_output(f.output)) {
+  if (!(f.progressive && is_stream(f.output)) && is_of_no_output(f.output)) {
     fmt::print(stderr, "wrlkit simplify: -o: '{}': its name should end in {}, or be that of a folder\n", f.output,
                output_endings_text());
     return std::nullopt;
@@ -288,6 +291,12 @@ void warn_of_idle_counts(const Flags& flags, const WrittenWorlds& all) {
     if (count >= all.n_drawn)
       fmt::print(stderr, "wrlkit simplify: --counts {} has no effect: the world has {} triangles\n", count,
                  all.n_drawn);
+  if (!all.points.empty() || all.n_drawn == 0) return;
+  if (static_cast<std::size_t>(flags.every) >= all.n_drawn)
+    fmt::print(stderr, "wrlkit simplify: --every {} has no effect: the world has {} triangles\n", flags.every,
+               all.n_drawn);
+  if (!flags.ratios.empty() && std::ranges::all_of(flags.ratios, [](double r) { return r >= 1; }))
+    fmt::print(stderr, "wrlkit simplify: --ratios has no effect: levels of all triangles are the world itself\n");
 }
 
 /// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
@@ -348,6 +357,7 @@ std::string_view standard_pipeline(const Flags& flags) {
 /// The names that --output asks for; makes its folder when it is one.
 Names names_of(const Flags& flags) {
   if (output_of(flags.output)) return {{}, {}, flags.output};
+  if (flags.progressive && is_stream(flags.output)) return {flags.output, {}};
   std::error_code failed;  // the first file that is written there says why
   fs::create_directories(flags.output, failed);
   const std::string ending = flags.progressive ? ".wpm" : ".wrl";
@@ -374,6 +384,7 @@ int run_simplify(const Flags& flags) {
   s.progress().begin("simplifying", 0, "");
   if (!simplify_world(s, as_read, *options, names, all)) return s.end(false);
   if (all.points.empty()) all.n_drawn = std::max(all.n_drawn, options->drawn);  // all of it may be what stays
+  if (all.n_drawn == 0) s.diag().report(Diag::nothing_drawn, {}, "it has no surface to simplify");
   s.progress().clear();
   warn_of_idle_counts(flags, all);
   if (flags.json)
