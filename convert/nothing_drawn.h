@@ -14,7 +14,8 @@ class DrawnMeshes {
   /// All must outlive this. `n_before`: of the messages that something was dropped, those about other scenes.
   DrawnMeshes(const Scene& scene, MeshSource meshes, Diagnostics& diag, std::size_t n_before = 0);
 
-  /// Messages so far that faces, lines or whole geometries were dropped.
+  /// Messages so far that faces or lines were dropped. A geometry that itself says that nothing of it is drawn, such as
+  /// a Cone without sides and bottom, does not count.
   static std::size_t n_dropped(const Diagnostics& diag);
 
   const Mesh& operator()(NodeId geometry);

@@ -106,7 +106,7 @@ def odd(tmp):
     check('a report of them', code == 0 and 'star*[x]' in (tmp / 'odd.csv').read_text(errors='replace'), code)
     b, recipe = tmp / 'faults', tmp / 'faults.toml'
     write(b / 'in/a.wrl', BOX)
-    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'not in range'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: \'soon\' is not a valid time'),
+    for text, why in (('passs = 1', "did you mean 'pass'"), ('[output]\nprecision = 99', 'is not in the range 0 to 17'), ('[limits]\ntimeout = "soon"', 'faults.toml:2:11: error: \'soon\' is not a valid time'),
                       ('[limits]\nmemory = "much"', "'much' is not a valid size"), ('[[pass]]\nname = "weld"\ntolerence = 1', "did you mean 'tolerance'"), ('[input', 'parsing table header'),
                       ('[limits]\njobs = 3', "'jobs' is an option of the command line: wrlkit corpus run --jobs")):
         write(recipe, text + '\n')
