@@ -44,8 +44,7 @@ DrawnMeshes::DrawnMeshes(const Scene& scene, MeshSource meshes, Diagnostics& dia
 
 std::size_t DrawnMeshes::n_dropped(const Diagnostics& diag) {
   std::size_t n = 0;
-  for (const auto message :
-       {Diag::bad_index, Diag::degenerate_face, Diag::degenerate_line, Diag::short_height, Diag::degenerate_geometry})
+  for (const auto message : {Diag::bad_index, Diag::degenerate_face, Diag::degenerate_line, Diag::short_height})
     n += diag.count(message);
   return n;
 }
