@@ -23,9 +23,9 @@ Grid read_dimensions(MeshJob& job, std::size_t n_heights) {
   constexpr std::size_t most_points = UINT32_MAX / 4;  // corners are counted in 32 bits
   const std::size_t whole_rows = std::min(n_heights, most_points) / grid.nx;
   if (whole_rows >= grid.nz) return grid;
-  if (whole_rows < 2) return {};
-  job.ctx.diag.report(Diag::short_height, job.scene.where(job.geometry), title(job), n_heights, x, z);
-  return {grid.nx, whole_rows};
+  if (n_heights > 0)
+    job.ctx.diag.report(Diag::short_height, job.scene.where(job.geometry), title(job), n_heights, x, z);
+  return whole_rows < 2 ? Grid{} : Grid{grid.nx, whole_rows};
 }
 
 class GridWriter {
