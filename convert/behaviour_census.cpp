@@ -74,8 +74,10 @@ std::string light_text(const Scene& scene, NodeId n, const Matrix& place) {
   out += text_of(light.color);
   if (light.kind != LightNode::Kind::point) out += text_of(unit(direction(place, light.direction)));
   if (light.kind != LightNode::Kind::directional)
-    out += text_of(place.point(light.location)) + text_of(light.attenuation) + fmt::format(" {}", rounded(light.radius));
-  if (light.kind == LightNode::Kind::spot) out += fmt::format(" {} {}", rounded(light.beam_width), rounded(light.cut_off_angle));
+    out +=
+        text_of(place.point(light.location)) + text_of(light.attenuation) + fmt::format(" {}", rounded(light.radius));
+  if (light.kind == LightNode::Kind::spot)
+    out += fmt::format(" {} {}", rounded(light.beam_width), rounded(light.cut_off_angle));
   return out;
 }
 

@@ -20,9 +20,9 @@
 namespace wrlkit {
 namespace {
 
-constexpr int most_apart = 2;                  // of 255
-constexpr std::size_t most_matched = 2'000;    // looks
-constexpr double least_share = 1e-4;           // of the surface
+constexpr int most_apart = 2;                // of 255
+constexpr std::size_t most_matched = 2'000;  // looks
+constexpr double least_change = 1e-4;        // of the surface
 
 std::uint8_t in_255ths(double v) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0., 1.))); }
 
@@ -90,7 +90,9 @@ std::vector<LookChange> more_of(const std::map<SurfaceLook, double>& a, const st
 
 /// Takes away from both what is nearly the same.
 void match(std::vector<LookChange>& gone, std::vector<LookChange>& made) {
-  const auto some = [](std::vector<LookChange>& all) { return std::span(all).first(std::min(all.size(), most_matched)); };
+  const auto some = [](std::vector<LookChange>& all) {
+    return std::span(all).first(std::min(all.size(), most_matched));
+  };
   for (auto& a : some(gone))
     for (auto& b : some(made)) {
       if (!(b.share > 0) || !are_alike(a.look, b.look)) continue;
@@ -104,7 +106,7 @@ void match(std::vector<LookChange>& gone, std::vector<LookChange>& made) {
 double clean(std::vector<LookChange>& all) {
   double share = 0;
   for (const auto& change : all) share += change.share;
-  std::erase_if(all, [](const LookChange& change) { return change.share < least_share; });
+  std::erase_if(all, [](const LookChange& change) { return change.share < least_change; });
   std::ranges::stable_sort(all, std::greater{}, &LookChange::share);
   return share;
 }
@@ -151,7 +153,8 @@ SurfaceLook LookCensus::look_of(NodeId appearance, const Mesh& mesh) {
   const bool is_linear = material && material->kind == MaterialNode::Kind::physical;
   out.color = in_255ths(material ? (is_linear ? displayed(material->color) : material->color) : Vec3{1, 1, 1});
   NodeId texture = material ? material->color_picture : NodeId{};
-  if (!texture && scene_.is(appearance, nodes::Appearance)) texture = scene_.get(appearance, nodes::appearance::texture);
+  if (!texture && scene_.is(appearance, nodes::Appearance))
+    texture = scene_.get(appearance, nodes::appearance::texture);
   out.picture = picture_of(texture);
   if (!material) return out;
   if (out.is_lit) out.emissive = in_255ths(is_linear ? displayed(material->emissive) : material->emissive);
@@ -189,7 +192,7 @@ LookDifference difference(const std::map<SurfaceLook, double>& a, const std::map
   match(out.gone, out.made);
   const double gone = clean(out.gone), made = clean(out.made);
   out.share = std::max(gone, made);
-  if (out.share < least_share) out = {};
+  if (out.share < least_change) out = {};
   return out;
 }
 

@@ -34,8 +34,8 @@ class LookCensus {
   /// Of a scene whose prototypes and Inlines are expanded. What cannot be read is reported.
   LookCensus(const Scene& scene, Resources* resources, Diagnostics& diag);
 
-  /// The mesh of a geometry, wherever a Shape shows it; once for each geometry. Meshes that are not triangles are passed
-  /// over. O(triangles x places).
+  /// The mesh of a geometry, wherever a Shape shows it; once for each geometry. Meshes that are not triangles are
+  /// passed over. O(triangles x places).
   void add(NodeId geometry, const Mesh& mesh);
 
   /// Square metres of the world of each look.

@@ -163,7 +163,7 @@ bool is_usable(const Flags& f, bool sheet) {
 constexpr int usual_samples = 16;  // along a side of a pixel, at most, but for paths
 
 /// Options of the camera that others replace, and of light, where the mode finds none.
-void warn_of_idle_options(const Flags& flags) {
+void warn_of_idle_picture_options(const Flags& flags) {
   if (flags.quiet) return;
   if (!flags.look_at.empty() && flags.fit) fmt::print(stderr, "wrlkit: --fit has no effect with --look-at\n");
   if (!flags.viewpoint.empty() && (flags.fit || !flags.look_at.empty()))
@@ -185,7 +185,7 @@ int run_render(const Flags& given) {
   Session s(flags);
   if (!is_usable(flags, sheet) || !s.good() || !s.choose_pipeline("picture")) return usage;
   if (s.printed_pipeline()) return done;
-  warn_of_idle_options(flags);
+  warn_of_idle_picture_options(flags);
   if (sheet) return render_sheet(s);
   const bool made = !flags.compare.empty() ? render_comparison(s)
                     : flags.turntable > 0  ? Turntable(s).make()
