@@ -251,9 +251,9 @@ struct OutputFile::State {
   void rewrite(std::uint64_t at, std::string_view bytes) {
     flush();
     while (!error && !bytes.empty()) {
-      const auto written = pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(at));
-      if (written < 0 && errno != EINTR) error = errno;
-      const auto n = static_cast<std::size_t>(std::max<ssize_t>(written, 0));
+      const auto done = pwrite(fd, bytes.data(), bytes.size(), static_cast<off_t>(at));
+      if (done < 0 && errno != EINTR) error = errno;
+      const auto n = static_cast<std::size_t>(std::max<ssize_t>(done, 0));
       bytes.remove_prefix(n);
       at += n;
     }
