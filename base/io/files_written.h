@@ -1,6 +1,5 @@
 // The files that were written for one output: itself, and what it refers to next to it.
 #pragma once
-#include <functional>
 #include <mutex>
 #include <set>
 #include <string>
@@ -10,9 +9,13 @@ namespace wrlkit {
 /// From several threads.
 class FilesWritten {
  public:
-  /// Whether a file that is there may be replaced. None: any may be. Set before anything is written.
-  std::function<bool(const std::string& path)> may_replace;
+  /// Why no file is replaced that was there before and is none of these; empty: any is. Set before anything is written.
+  std::string refusal;
 
+  bool has(const std::string& path) const {
+    const std::lock_guard lock(mutex_);
+    return paths_.contains(path);
+  }
   void add(const std::string& path) {
     const std::lock_guard lock(mutex_);
     paths_.insert(path);
@@ -21,7 +24,7 @@ class FilesWritten {
   const std::set<std::string>& paths() const { return paths_; }
 
  private:
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::set<std::string> paths_;
 };
 

@@ -65,12 +65,14 @@ bool LineJournal::append(std::string line) {
 
 void LineJournal::settle() { fdatasync(fd_); }
 
-void read_journal_lines(const std::string& folder, const std::function<void(const std::string&)>& take) {
+void read_journal_lines(const std::string& folder, const std::function<void(const std::string&)>& take,
+                        std::string_view kind) {
+  const auto beginning = std::string(kind) + "-";
   std::vector<fs::path> paths;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none)) {
     const auto name = entry.path().filename().string();
-    if (name.starts_with("journal-") && name.ends_with(".jsonl")) paths.push_back(entry.path());
+    if (name.starts_with(beginning) && name.ends_with(".jsonl")) paths.push_back(entry.path());
   }
   std::ranges::sort(paths, {}, [&](const fs::path& p) { return std::pair(fs::last_write_time(p, none), p); });
   for (const auto& path : paths) {

@@ -26,8 +26,9 @@ class LineJournal {
   int fd_;
 };
 
-/// Every line of every file journal-*.jsonl of a folder, in order; the file that was written last wins.
+/// Every line of every file `kind`-*.jsonl of a folder, in order; the file that was written last wins.
 /// Memory: one line.
-void read_journal_lines(const std::string& folder, const std::function<void(const std::string&)>& take);
+void read_journal_lines(const std::string& folder, const std::function<void(const std::string&)>& take,
+                        std::string_view kind = "journal");
 
 }  // namespace wrlkit

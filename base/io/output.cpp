@@ -187,7 +187,7 @@ struct OutputFile::State {
 
   /// Whether the target is a file that others have made.
   bool refuses_foreign() {
-    is_foreign = written && written->may_replace && !written->may_replace(name);
+    is_foreign = written && !written->refusal.empty() && !written->has(name);
     if (is_foreign) error = EEXIST;
     return is_foreign;
   }
@@ -322,12 +322,12 @@ struct OutputFile::State {
   }
 
   bool report(Diagnostics& diag) const {
-    const auto why =
-        is_input          ? "it is one of the files that were read; choose another name"
-        : is_foreign      ? "it was there before, and not made by this run or an earlier one; --overwrite replaces it"
-        : !unmade.empty() ? "the folder '" + unmade + "' cannot be made: " + std::generic_category().message(error)
-        : kind == direct && error == ENOSPC ? "there is no space left"
-                                            : reason(error, target);
+    const auto why = is_input     ? "it is one of the files that were read; choose another name"
+                     : is_foreign ? written->refusal
+                     : !unmade.empty()
+                         ? "the folder '" + unmade + "' cannot be made: " + std::generic_category().message(error)
+                     : kind == direct && error == ENOSPC ? "there is no space left"
+                                                         : reason(error, target);
     if (error) diag.report(Diag::cannot_write, {}, name, why);
     if (!error && has_replaced_another) diag.report(Diag::file_replaced, {}, name);
     return error == 0;

@@ -18,6 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view of_others = "no corpus run has made what is there; --overwrite replaces it";
 constexpr std::uint64_t largest_asset = std::uint64_t{4} << 30;
 
 std::vector<std::string> allowed_folders(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job) {
@@ -43,11 +44,13 @@ std::string cause_in(const Diagnostics& diag) {
   return text.substr(0, text.find('\n'));
 }
 
-bool copy(const std::string& from, const std::string& to, std::string& cause) {
+bool copy(const std::string& from, const std::string& to, bool may_replace, std::string& cause) {
   Diagnostics diag;
   const auto bytes = read_bytes(from, largest_asset, cause);
   if (!bytes) return false;
-  auto file = OutputFile::open(to, {}, diag);
+  FilesWritten written;
+  if (!may_replace) written.refusal = of_others;
+  auto file = OutputFile::open(to, {.written = &written}, diag);
   if (file) file->write(*bytes);
   if (file && file->commit(diag)) return true;
   cause = cause_in(diag);
@@ -62,9 +65,9 @@ std::string name_below(const std::string& folder, const std::string& path) {
 
 /// What a conversion is to do besides what its flags say.
 struct ConversionExtras {
-  std::function<void(Scene&)> last;                     // to the scene, before it is written
-  std::function<bool(const std::string&)> may_replace;  // files that are there
-  std::function<void(const std::string&)> take;         // files that were written
+  std::function<void(Scene&)> last;              // to the scene, before it is written
+  std::function<void(const std::string&)> take;  // files that were written
+  bool may_replace = false;                      // files that are there
 };
 
 bool convert(const Flags& flags, const ConversionExtras& extras, JournalLine& line) {
@@ -75,7 +78,7 @@ bool convert(const Flags& flags, const ConversionExtras& extras, JournalLine& li
   }
   bool made = read_input(s);
   if (made) {
-    s.resources().files_written().may_replace = extras.may_replace;
+    if (!extras.may_replace) s.resources().files_written().refusal = of_others;
     made = static_cast<bool>(write_world(s, save_options(flags), extras.last));
   }
   line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
@@ -143,14 +146,13 @@ bool write_run_recipe(const CorpusWork& work, const CorpusPlan& plan) {
   return write_text_file(run_recipe(work.out), recipe_text(options, work.flags.warnings, s.pipeline()));
 }
 
-void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, const DoneBefore& before,
-            JournalLine& line) {
+void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, bool may_replace, JournalLine& line) {
   const auto target = (fs::path(work.out) / job.output).string();
   std::error_code none;
   fs::create_directories(fs::path(target).parent_path(), none);
   line.input_hash = hash_of_file(job.input.path).value_or(ContentHash{});
   if (job.input.asset) {
-    line.state = copy(job.input.path, target, line.cause) ? JobState::made : JobState::failed;
+    line.state = copy(job.input.path, target, may_replace, line.cause) ? JobState::made : JobState::failed;
   } else {
     Flags flags = work.flags;
     flags.inputs = {job.input.path};
@@ -161,7 +163,7 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     ConversionExtras extras;
     if (flags.save.keep_urls)
       extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); };
-    extras.may_replace = [&](const std::string& path) { return before.may_replace(path); };
+    extras.may_replace = may_replace;
     extras.take = [&](const std::string& path) {
       if (auto name = name_below(work.out, path); name != job.output)
         line.companions.push_back({std::move(name), fs::file_size(path, none)});
@@ -174,21 +176,14 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
   }
 }
 
-DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan, bool overwrite) : work_(work), plan_(plan) {
-  read_journals(corpus_folder(work.out), [&](JournalLine&& l) {
-    for (const auto& file : l.companions) companions_.insert(file.path);
+DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(work), plan_(plan) {
+  const auto folder = corpus_folder(work.out);
+  read_begun(folder, [&](std::string&& output) { unended_.insert(std::move(output)); });
+  read_journals(folder, [&](JournalLine&& l) {
+    if (l.state == JobState::failed || is_made(l.state)) unended_.erase(l.output);
+    if (is_made(l.state)) made_.insert(l.output);
     known_[l.output] = {l.work, l.input_hash, l.output_bytes, l.state, std::move(l.files), std::move(l.companions)};
   });
-  if (!overwrite) begun_ = time_of_first_run(work.out);
-}
-
-/// Files that are older than the first run, and in no journal, are somebody else's.
-bool DoneBefore::may_replace(const std::string& path) const {
-  if (!begun_) return true;
-  const auto changed = change_time(path);
-  if (!changed || *changed >= *begun_) return true;
-  const auto name = name_below(work_.out, path);
-  return known_.contains(name) || companions_.contains(name);
 }
 
 std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {

@@ -6,7 +6,6 @@
 #include <unordered_set>
 
 #include "tools/cli/flags.h"
-#include "tools/corpus/first_run.h"
 #include "tools/corpus/journal.h"
 
 namespace wrlkit {
@@ -33,15 +32,15 @@ std::optional<CorpusWork> corpus_work(const Flags& corpus_flags, std::string& wh
 /// Knows what was done before, by the journals.
 class DoneBefore {
  public:
-  /// `overwrite`: files of others may be replaced.
-  DoneBefore(const CorpusWork& work, const CorpusPlan& plan, bool overwrite);
+  DoneBefore(const CorpusWork& work, const CorpusPlan& plan);
   /// The state that a job ended in when it was done with the same program and recipe from the same input and the same
   /// files behind it, and what was made then is still there.
   std::optional<JobState> state_of(const CorpusJob& job);
   /// Whether an earlier run has worked on that output.
   bool has(const CorpusJob& job) const { return known_.contains(job.output); }
-  /// Whether a file that is there may be replaced: a run has made it.
-  bool may_replace(const std::string& path) const;
+  /// Whether what lies where that output and its companions go is a run's own: one has made the output, or has begun it
+  /// and was killed.
+  bool owns(const CorpusJob& job) const { return made_.contains(job.output) || unended_.contains(job.output); }
 
  private:
   struct Known {
@@ -56,14 +55,12 @@ class DoneBefore {
 
   const CorpusWork& work_;
   const CorpusPlan& plan_;
-  std::optional<FileTime> begun_;                        // the first run; none: any file may be replaced
-  std::unordered_set<std::string> companions_;           // of all outputs
+  std::unordered_set<std::string> made_, unended_;       // outputs: at any time; begun, and not ended in order
   std::unordered_map<std::string, Known> known_;         // by output
   std::unordered_map<std::string, ContentHash> hashes_;  // of files that inputs refer to
 };
 
-/// Does a job and fills in what the journal wants to know of it.
-void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, const DoneBefore& before,
-            JournalLine& line);
+/// Does a job and fills in what the journal wants to know of it. `may_replace`: files that are there.
+void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job, bool may_replace, JournalLine& line);
 
 }  // namespace wrlkit

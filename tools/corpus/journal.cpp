@@ -13,6 +13,7 @@ namespace wrlkit {
 namespace {
 
 constexpr std::string_view escaped_name = "bytes:";
+constexpr std::string_view begun_kind = "begun";
 constexpr std::string_view states[] = {"made", "made-partly", "failed", "crashed", "timeout", "no-memory"};
 
 }  // namespace
@@ -62,12 +63,20 @@ std::optional<JournalLine> journal_line(std::string_view text) {
 }
 
 std::optional<Journal> Journal::open(const std::string& folder, Shard shard, std::string& why) {
-  auto lines = LineJournal::open(fmt::format("{}/journal-{}-of-{}.jsonl", folder, shard.index + 1, shard.count), why);
-  if (!lines) return std::nullopt;
-  return Journal(std::move(*lines));
+  const auto open_lines = [&](std::string_view kind) {
+    return LineJournal::open(fmt::format("{}/{}-{}-of-{}.jsonl", folder, kind, shard.index + 1, shard.count), why);
+  };
+  auto lines = open_lines("journal");
+  auto begun = lines ? open_lines(begun_kind) : std::nullopt;
+  if (!begun) return std::nullopt;
+  return Journal(std::move(*lines), std::move(*begun));
 }
 
 bool Journal::append(const JournalLine& l) { return lines_.append(to_json(l)); }
+
+bool Journal::append_begun(const std::string& output) {
+  return begun_.append(json_of(json_object("output", name_to_json(output))));
+}
 
 void Journal::settle() { lines_.settle(); }
 
@@ -75,6 +84,14 @@ void read_journals(const std::string& folder, const std::function<void(JournalLi
   read_journal_lines(folder, [&](const std::string& text) {
     if (auto l = journal_line(text)) take(std::move(*l));
   });
+}
+
+void read_begun(const std::string& folder, const std::function<void(std::string&&)>& take) {
+  const auto take_line = [&](const std::string& text) {
+    JsonDocument doc;
+    if (!doc.parse(text)) take(name_from_json(doc.root()["output"].text()));
+  };
+  read_journal_lines(folder, take_line, begun_kind);
 }
 
 std::string corpus_folder(const std::string& out) { return out + "/.wrlkit"; }

@@ -1,5 +1,5 @@
 // What has been done, a line of JSON a file (base/io/line_journal.h), in OUT/.wrlkit/. Each shard has a journal of its
-// own; readers take all of them, and the last line about an output counts.
+// own; readers take all of them, and the last line about an output counts. What is begun stands in files next to them.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -89,6 +89,7 @@ struct JournalLine {
 std::string to_json(const JournalLine&);
 /// Nothing when the text is not a whole line.
 std::optional<JournalLine> journal_line(std::string_view text);
+
 class Journal {
  public:
   /// Opens a shard's journal to write behind what it has. Nothing, and why, when it cannot be written or another run
@@ -97,16 +98,20 @@ class Journal {
 
   /// False when the line could not be written; errno says why.
   bool append(const JournalLine&);
+  /// That an output is begun, which a run that is killed leaves no other line of. False as above.
+  bool append_begun(const std::string& output);
   /// On the disk, and not on its way there.
   void settle();
 
  private:
-  explicit Journal(LineJournal lines) : lines_(std::move(lines)) {}
-  LineJournal lines_;
+  Journal(LineJournal lines, LineJournal begun) : lines_(std::move(lines)), begun_(std::move(begun)) {}
+  LineJournal lines_, begun_;
 };
 
 /// Every line of every journal of a run, journal by journal, in order. Memory: one line.
 void read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take);
+/// The outputs that were ever begun.
+void read_begun(const std::string& folder, const std::function<void(std::string&&)>& take);
 
 /// Where a run keeps what is its own: OUT/.wrlkit
 std::string corpus_folder(const std::string& out);

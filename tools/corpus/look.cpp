@@ -59,8 +59,8 @@ bool make_look(const Flags& flags, const std::string& out, const JournalLine& li
   of_output.load.allow_paths.push_back(out);
   Session a(of_input), b(of_output);
   if (!a.read(line.input) || !b.read(output)) return false;
-  auto facts_a = facts_of(std::move(a.document()));
-  auto facts_b = facts_of(std::move(b.document()));
+  auto facts_a = facts_of(std::move(a.document()), false);
+  auto facts_b = facts_of(std::move(b.document()), false);
   if (!facts_a || !facts_b) return false;
   const auto d = difference(std::move(*facts_a), std::move(*facts_b));
   constexpr double none = std::numeric_limits<double>::infinity();

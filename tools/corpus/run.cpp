@@ -24,7 +24,6 @@
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
-#include "tools/corpus/foreign_outputs.h"
 #include "tools/corpus/status.h"
 #include "tools/corpus/workers.h"
 
@@ -92,6 +91,7 @@ struct Planned {
   CorpusPlan plan;
   std::vector<std::string> left_out;
   Shard shard;
+  std::vector<std::uint32_t> todo;  // the jobs of the shard
 };
 
 /// `code`: of what is wrong, when something is, which was printed.
@@ -132,6 +132,8 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
   auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
   if (!plan) return fail();
   p.plan = std::move(*plan);
+  for (std::uint32_t i = 0; i < p.plan.jobs.size(); ++i)
+    if (flags.shard.empty() || p.plan.jobs[i].shard == p.shard.index) p.todo.push_back(i);
   if (is_input_folder(p.plan, flags.output)) {
     why = "'" + flags.output + "' is a folder of inputs; the outputs need one of their own";
     return fail();
@@ -139,21 +141,28 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
   return p;
 }
 
+/// The jobs of the shard whose outputs are there.
+std::vector<std::uint32_t> existing_outputs(const Planned& p, const std::string& folder) {
+  std::error_code none;
+  std::vector<std::uint32_t> out;
+  if (!fs::exists(folder, none)) return out;
+  std::ranges::copy_if(p.todo, std::back_inserter(out),
+                       [&](std::uint32_t at) { return fs::exists(fs::path(folder) / p.plan.jobs[at].output, none); });
+  return out;
+}
+
 class Run {
  public:
-  Run(const Flags& flags, const CorpusWork& work, const Planned& planned, Journal journal)
+  Run(const Flags& flags, const CorpusWork& work, const Planned& planned, DoneBefore before, Journal journal)
       : flags_(flags),
         work_(work),
         plan_(planned.plan),
         complete_(planned.left_out.empty()),
         journal_(std::move(journal)),
-        before_(work, plan_, flags.overwrite),
+        before_(std::move(before)),
         host_(host_name()) {
-    for (std::uint32_t i = 0; i < plan_.jobs.size(); ++i)
-      if (flags.shard.empty() || plan_.jobs[i].shard == planned.shard.index) {
-        todo_.push_back(i);
-        cost_ += plan_.jobs[i].cost;
-      }
+    todo_ = planned.todo;
+    for (const auto i : todo_) cost_ += plan_.jobs[i].cost;
     memory_ = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
     // What a pass in Python leaves behind in its process is for the next file to find.
     const int usual = work.flags.python.empty() ? 16 : 1;
@@ -248,13 +257,17 @@ class Run {
   /// False when there is no room for them now.
   bool start(const std::vector<std::uint32_t>& files, std::uint64_t memory) {
     if (workers_.running() && granted_ + memory > memory_) return false;
+    std::vector<bool> may_replace;
+    for (const auto at : files) may_replace.push_back(flags_.overwrite || begin(at));
     // Whoever shares a worker and takes long is done again alone, with all of its time.
     const double timeout = files.size() == 1 ? timeout_ : std::min(timeout_, bundle_timeout);
     const bool begun = workers_.start(files.front(), memory, timeout, [&](const Workers::Tell& tell) {
-      for (const auto at : files) tell(to_json(measured(at)) + "\n");
+      for (std::size_t i = 0; i < files.size(); ++i) tell(to_json(measured(files[i], may_replace[i])) + "\n");
       return done;
     });
     if (!begun) {
+      for (std::size_t i = 0; i < files.size(); ++i)
+        if (!may_replace[i]) begun_.erase(files[i]);
       std::this_thread::sleep_for(std::chrono::milliseconds(workers_.running() ? 0 : 100));
       return false;
     }
@@ -263,12 +276,22 @@ class Run {
     return true;
   }
 
+  /// Whether what lies where a file's outputs go is a run's own; from now on it is.
+  bool begin(std::uint32_t at) {
+    if (before_.owns(plan_.jobs[at]) || !begun_.insert(at).second) return true;
+    if (!journal_.append_begun(plan_.jobs[at].output)) {
+      good_ = false;
+      journal_fault_ = std::strerror(errno);
+    }
+    return false;
+  }
+
   /// In a worker: does a file.
-  JournalLine measured(std::uint32_t at) const {
+  JournalLine measured(std::uint32_t at, bool may_replace) const {
     JournalLine line;
     const bool had_codecs = image_codecs_are_loaded();
     const ProcessUsage before;
-    do_job(work_, plan_, plan_.jobs[at], before_, line);
+    do_job(work_, plan_, plan_.jobs[at], may_replace, line);
     const ProcessUsage after;
     line.codecs = !had_codecs && image_codecs_are_loaded();
     line.started = before.time;
@@ -407,6 +430,7 @@ class Run {
   std::string host_;
   std::vector<std::uint32_t> todo_, bundle_, alone_;  // bundle_: taken from todo_, not begun
   std::unordered_set<std::uint32_t> own_process_;
+  std::unordered_set<std::uint32_t> begun_;            // of those that no run had begun before
   std::unordered_map<std::uint32_t, Granted> grants_;  // by the first file
   std::size_t next_ = 0, bundle_size_ = 1;
   double cost_ = 0, timeout_ = 0;
@@ -460,21 +484,25 @@ int run_corpus_run(const Flags& flags) {
   int code = usage;
   const auto planned = plan_of("corpus run", flags, work->text, code);
   if (!planned) return code;
-  if (const auto found = foreign_outputs(planned->plan, flags.output); found.count > 0 && !flags.overwrite) {
+  // First what is there: another run writes down what it begins before anything is there.
+  auto in_the_way = existing_outputs(*planned, flags.output);
+  DoneBefore before(*work, planned->plan);
+  std::erase_if(in_the_way, [&](std::uint32_t at) { return before.owns(planned->plan.jobs[at]); });
+  if (!in_the_way.empty() && !flags.overwrite) {
+    const auto first = fs::path(flags.output) / planned->plan.jobs[in_the_way[0]].output;
     complain("corpus run",
              fmt::format("'{}' holds {} that no corpus run has made, such as '{}'; choose another folder, "
                          "or say --overwrite",
-                         flags.output, counted(found.count, "file"), found.first));
+                         flags.output, counted(in_the_way.size(), "file"), first.string()));
     return usage;
   }
-  note_first_run(flags.output);  // where that fails, the journal cannot be written either
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
     complain("corpus run", why);
     return nothing;
   }
   if (!write_run_recipe(*work, planned->plan)) return usage;
-  return Run(flags, *work, *planned, std::move(*journal)).run();
+  return Run(flags, *work, *planned, std::move(before), std::move(*journal)).run();
 }
 
 int run_corpus_plan(const Flags& flags) {
