@@ -50,7 +50,7 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   PartRows rows(context);
   Meshes meshes(context, extras, rows);
   Hierarchy hierarchy(context, extras, meshes, rows, limits,
-                      file.is_own() ? std::set<std::uint32_t>() : moved_nodes(file));
+                      file.is_whole() ? std::set<std::uint32_t>() : moved_nodes(file));
   const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
   scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
   extras.protos(kept["protos"]);
