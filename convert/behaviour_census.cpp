@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/math/affine.h"
@@ -32,6 +33,23 @@ void add_value(const Value& v, std::string& out) {
     for (const auto x : v.integer_span()) out += fmt::format(" {}", x);
   else if (v.type == FieldType::SFString)
     (out += ' ') += v.text();
+  else if (v.type == FieldType::MFString)
+    for (const auto text : v.text_span()) (out += ' ') += text;
+}
+
+/// Conversions may have to put files elsewhere.
+bool is_url(const FieldDef& f) { return f.name == "url" || f.name.ends_with("Url"); }
+
+bool is_animation(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::X3DInterpolatorNode) || scene.is(n, nodes::X3DTimeDependentNode);
+}
+
+bool is_other(const Scene& scene, NodeId n) {
+  constexpr BaseSet kinds[] = {nodes::X3DBackgroundNode, nodes::X3DFogObject,  nodes::X3DInfoNode,
+                               nodes::X3DSensorNode,     nodes::X3DScriptNode, nodes::X3DSoundNode};
+  if (scene.is(n, nodes::Collision) || scene.is(n, nodes::Anchor) || scene.is(n, nodes::Billboard)) return true;
+  if (scene.is(n, nodes::NavigationInfo) || scene.is(n, nodes::LOD)) return true;
+  return std::ranges::any_of(kinds, [&](BaseSet kind) { return scene.is(n, kind); });
 }
 
 /// Its type, and what it says that is not the default.
@@ -40,7 +58,7 @@ std::string said_by(const Scene& scene, NodeId n) {
   std::string out(type.name);
   for (std::uint16_t slot = 0; slot < type.fields.size(); ++slot) {
     const Value* v = scene.find(n, slot);
-    if (!v || v->is) continue;
+    if (!v || v->is || is_url(type.fields[slot])) continue;
     std::string own, usual;
     add_value(*v, own);
     add_value(type.fields[slot].default_value, usual);
@@ -89,7 +107,10 @@ BehaviourCensus count_behaviour(const Scene& scene) {
     ++out.routes[fmt::format("{}.{} TO {}.{}", scene.type(r.from).name, r.event_out, scene.type(r.to).name,
                              r.event_in)];
   for (const NodeId n : reachable(scene, scene.main))
-    if (scene.is(n, nodes::X3DInterpolatorNode)) ++out.animations[said_by(scene, n)];
+    if (is_animation(scene, n))
+      ++out.animations[said_by(scene, n)];
+    else if (is_other(scene, n))
+      ++out.others[said_by(scene, n)];
   Ways<Matrix> ways(scene);
   ways.push(scene.main.roots, {});
   while (const auto step = ways.next()) {

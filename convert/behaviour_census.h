@@ -1,4 +1,4 @@
-// What moves, looks and shines in a scene: ROUTEs, interpolators, Viewpoints, lights, by what they say.
+// What moves, looks and shines in a scene, and what else it says that is no form: by the values of its nodes.
 #pragma once
 #include <map>
 #include <string>
@@ -13,7 +13,10 @@ namespace wrlkit {
 using SaidTimes = std::map<std::string, std::size_t>;
 
 struct BehaviourCensus {
-  SaidTimes routes, animations, viewpoints, lights;
+  SaidTimes routes;
+  SaidTimes animations;  // interpolators, and what has a time of its own
+  SaidTimes viewpoints, lights;
+  SaidTimes others;  // Background, Fog, NavigationInfo, WorldInfo, sensors, Scripts, sounds, Anchors, ranges of LODs
 };
 
 /// Of a scene whose prototypes and Inlines are expanded. O(nodes and their values).

@@ -9,7 +9,7 @@
 
 namespace wrlkit {
 
-std::optional<WorldFacts> facts_of(Document&& document) {
+std::optional<WorldFacts> facts_of(Document&& document, bool with_looks) {
   if (!document) return std::nullopt;
   WorldFacts facts;
   const Scene& scene = document.scene();
@@ -25,7 +25,7 @@ std::optional<WorldFacts> facts_of(Document&& document) {
   auto gathered = [&](NodeId geometry) -> const Mesh& {
     const Mesh& mesh = meshes.triangles(geometry);
     surface.add(geometry, mesh);
-    looks.add(geometry, mesh);
+    if (with_looks) looks.add(geometry, mesh);
     return mesh;
   };
   facts.geometry = count_geometry(scene, meshes.polygons, gathered);
@@ -57,6 +57,7 @@ WorldDifference difference(WorldFacts a, WorldFacts b) {
   d.animations = difference(does.animations, did.animations);
   d.viewpoints = difference(does.viewpoints, did.viewpoints);
   d.lights = difference(does.lights, did.lights);
+  d.others = difference(does.others, did.others);
   d.bounds = apart(d.a.geometry.bounds, d.b.geometry.bounds);
   if (!d.a.surface->complete() || !d.b.surface->complete()) return d;
   d.surface = measure_deviation(d.a.surface->triangles(), d.b.surface->triangles());

@@ -34,12 +34,12 @@ struct WorldDifference {
   std::optional<Deviation> surface;              // none: too large to be measured
   double of_diagonal = 0;
   LookDifference looks;
-  SaidDifference routes, animations, viewpoints, lights;
+  SaidDifference routes, animations, viewpoints, lights, others;
 };
 
 /// Nothing when the scene cannot be expanded, which is reported. The document is expanded; what is measured stays when
-/// it is gone.
-std::optional<WorldFacts> facts_of(Document&&);
+/// it is gone. `with_looks`: pictures are decoded.
+std::optional<WorldFacts> facts_of(Document&&, bool with_looks = true);
 /// The difference of two that were measured. O(n log n) in their triangles.
 WorldDifference difference(WorldFacts a, WorldFacts b);
 

@@ -62,11 +62,10 @@ double area_in(const Mesh& mesh, std::size_t face, const Matrix& place) {
 }
 
 bool are_alike(const SurfaceLook& a, const SurfaceLook& b) {
-  if (a.picture != b.picture || a.is_lit != b.is_lit || std::abs(a.opacity - b.opacity) > most_apart) return false;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (std::abs(a.color[k] - b.color[k]) > most_apart || std::abs(a.emissive[k] - b.emissive[k]) > most_apart)
-      return false;
-  return true;
+  const auto near = [](std::uint8_t x, std::uint8_t y) { return std::abs(x - y) <= most_apart; };
+  return a.picture == b.picture && a.is_lit == b.is_lit && near(a.opacity, b.opacity) &&
+         near(a.shininess, b.shininess) && std::ranges::equal(a.color, b.color, near) &&
+         std::ranges::equal(a.emissive, b.emissive, near) && std::ranges::equal(a.specular, b.specular, near);
 }
 
 double sum(const std::map<SurfaceLook, double>& areas) {
@@ -117,6 +116,8 @@ std::string text_of(const SurfaceLook& look) {
   const auto hex = [](const auto& c) { return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]); };
   std::string out = hex(look.color);
   if (look.emissive != std::array<std::uint8_t, 3>{}) out += " glowing " + hex(look.emissive);
+  if (look.specular != std::array<std::uint8_t, 3>{})
+    out += fmt::format(" shining {} ({:.2g})", hex(look.specular), look.shininess / 255.);
   if (look.opacity < 255) out += fmt::format(" transparent {:.0f} %", 100 - look.opacity / 2.55);
   if (!look.is_lit) out += " unlit";
   if (!look.picture.empty()) out += " with picture " + look.picture.substr(0, 8);
@@ -159,9 +160,12 @@ SurfaceLook LookCensus::look_of(NodeId appearance, const Mesh& mesh) {
   if (!material) return out;
   if (out.is_lit) out.emissive = in_255ths(is_linear ? displayed(material->emissive) : material->emissive);
   out.opacity = in_255ths(1 - material->transparency);
+  if (out.is_lit) out.specular = in_255ths(material->specular);
+  if (out.specular != std::array<std::uint8_t, 3>{}) out.shininess = in_255ths(material->shininess);
   if (mesh.color.present()) out.color = {};
   // What only glows looks as if it were not lit, which other formats say of it.
-  const bool only_glows = !mesh.color.present() && out.picture.empty() && out.color == decltype(out.color){};
+  constexpr std::array<std::uint8_t, 3> black{};
+  const bool only_glows = !mesh.color.present() && out.picture.empty() && out.color == black && out.specular == black;
   if (only_glows && out.is_lit) {
     out.is_lit = false;
     std::swap(out.color, out.emissive);

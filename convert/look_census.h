@@ -16,10 +16,10 @@
 
 namespace wrlkit {
 
-/// Colours in 255ths, as displayed. Shininess, highlights and the places of pictures are no part of it.
+/// In 255ths, colours as displayed. The places of pictures are no part of it.
 struct SurfaceLook {
-  std::array<std::uint8_t, 3> color{}, emissive{};
-  std::uint8_t opacity = 255;
+  std::array<std::uint8_t, 3> color{}, emissive{}, specular{};
+  std::uint8_t opacity = 255, shininess = 0;  // shininess: 0 without specular
   bool is_lit = true;
   std::string picture;  // of equal pixels the same: their hash; empty: there is none
 

@@ -53,7 +53,7 @@ struct TilesMade {
   std::vector<TileFigures> tiles = {};  // the root is the first
   std::size_t depth = 0;                // levels behind the root
   std::size_t n_files = 0, n_failed = 0;
-  std::vector<std::string> inlined = {};         // names of files that others of the set inline, and show
+  std::vector<std::string> inlined = {};         // names of files that others of the set inline
   std::size_t triangles = 0, parts = 0;          // of all files
   std::vector<std::size_t> shown = {};           // parts, by level: of its tiles and of full tiles above it
   std::size_t n_cut = 0;                         // pieces of surfaces that are too large for a tile

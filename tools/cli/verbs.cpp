@@ -89,8 +89,8 @@ constexpr Verb all_verbs[] = {
      "it prints the scene itself; write that to a file with -o, or use wrlkit info --json"},
     {"diff",
      "compare two scenes: structure, names, the distance between their surfaces, colours and pictures, ROUTEs, "
-     "animations, "
-     "Viewpoints and lights; the exit code is 0 "
+     "animations, Viewpoints, lights, and what other nodes say; not the places of pictures, nor points within lines; "
+     "the exit code is 0 "
      "even if they differ",
      "wrlkit diff plant.wrl simpler.wrl\n  wrlkit diff plant.wrl simpler.wrl --json",
      [](CLI::App& v, Flags& f) {

@@ -16,8 +16,12 @@ namespace wrlkit {
 
 namespace {
 
-std::array<std::pair<std::string_view, SaidDifference>, 4> behaviour_of(const WorldDifference& d) {
-  return {{{"routes", d.routes}, {"animations", d.animations}, {"viewpoints", d.viewpoints}, {"lights", d.lights}}};
+std::array<std::pair<std::string_view, SaidDifference>, 5> behaviour_of(const WorldDifference& d) {
+  return {{{"routes", d.routes},
+           {"animations", d.animations},
+           {"viewpoints", d.viewpoints},
+           {"lights", d.lights},
+           {"others", d.others}}};
 }
 
 std::string difference_json(const WorldDifference& d) {

@@ -115,7 +115,7 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
   if (made.n_over > 0) out += fmt::format("  tiles above the budget of draws or bytes: {}\n", made.n_over);
   if (made.n_failed > 0) out += fmt::format("  files that could not be read: {}\n", made.n_failed);
   if (!made.inlined.empty())
-    out += fmt::format("  files that others inline, and that are shown only there: {} ({}{})\n", made.inlined.size(),
+    out += fmt::format("  files that others inline, shown as those show them and not by themselves: {} ({}{})\n", made.inlined.size(),
                        made.inlined[0], made.inlined.size() > 1 ? ", ..." : "");
   if (made.n_cut > 0) out += fmt::format("  pieces of surfaces that are too large for a tile: {}\n", made.n_cut);
   if (made.lost.empty()) return out;
