@@ -7,6 +7,7 @@
 #include "base/image/image.h"
 #include "base/io/project_folder.h"
 #include "base/io/url.h"
+#include "parsers/parsers.h"
 #include "parsers/patches/patches.h"
 
 namespace wrlkit {
@@ -231,6 +232,12 @@ std::vector<FileLookup> FileResources::lookups() const {
   for (const auto& [asked, result] : looked_up_) out.push_back({asked.first, asked.second, result});
   for (const auto& path : patch_files_) out.push_back({"", path, {AllowedFiles::found, path, path}});
   return out;
+}
+
+std::unique_ptr<Scene> FileResources::parse(std::string_view text, std::string name, const ParseLimits& limits,
+                                            Diagnostics& diag) {
+  const auto world = parse_world(text, std::move(name), {.parse = limits}, diag);
+  return world ? std::make_unique<Scene>(std::move(world->scene)) : nullptr;
 }
 
 std::shared_ptr<const PatchSet> FileResources::patches(const std::string& path, Diagnostics& diag) {

@@ -14,6 +14,7 @@
 #include "base/image/image.h"
 #include "base/io/files_read.h"
 #include "base/io/files_written.h"
+#include "scenegraph/builder.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit {
@@ -66,6 +67,11 @@ class Resources {
   /// A scene, to see what it refers to, at a path that target() gave; null when there is nothing to
   /// be had. Nothing is reported, nothing kept.
   virtual std::shared_ptr<const Scene> look_into(const std::string&) { return nullptr; }
+
+  /// The scene that a text of a Script is; `name` is for messages. Null, reported, when it is none.
+  virtual std::unique_ptr<Scene> parse(std::string_view, std::string, const ParseLimits&, Diagnostics&) {
+    return nullptr;
+  }
 
   /// The first of the urls that can be read, for a node that was read at `where` (relative urls are relative to that
   /// file). Reports and returns null when none can. Each file is read once; later calls return the same object.

@@ -11,8 +11,8 @@ below = {'base': [], 'scenegraph': ['base']}
 below['geometry'] = ['scenegraph', *below['scenegraph']]
 for sibling in ('light', 'parsers', 'writers'):
     below[sibling] = ['geometry', *below['geometry']]
-below['passes'] = ['light', 'parsers', 'writers', *below['light']]
-below['convert'] = ['passes', *below['passes']]
+below['passes'] = ['light', *below['light']]
+below['convert'] = ['parsers', 'writers', 'passes', *below['passes']]
 for user in ('tools', 'python', 'bench'):
     below[user] = ['convert', *below['convert']] + (['tools'] if user != 'tools' else [])
 doors = ('geometry/openmesh/openmesh.h',)  # components that speak another library's types

@@ -357,6 +357,17 @@ Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx
   return all;
 }
 
+bool fits(std::string_view name, std::string_view pattern) {
+  return pattern.back() == '*' ? name.starts_with(pattern.substr(0, pattern.size() - 1)) : name == pattern;
+}
+
+void report_unused(const NamedDensities& densities, const Scene& scene, Diagnostics& diag) {
+  const auto nodes = reachable(scene, scene.main);
+  for (const auto& [pattern, factor] : densities.all)
+    if (std::ranges::none_of(nodes, [&](NodeId n) { return fits(scene.name(n), pattern); }))
+      diag.report(Diag::no_name_matches, {}, "densities of lightmap", pattern);
+}
+
 }  // namespace
 
 bool NamedDensities::read(std::string_view text) {
@@ -384,16 +395,13 @@ std::string NamedDensities::print() const {
 }
 
 double NamedDensities::of(std::string_view name) const {
-  for (const auto& [pattern, factor] : all) {
-    const bool open = pattern.back() == '*';
-    if (open ? name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1)) : name == pattern)
-      return factor;
-  }
-  return 0;
+  const auto fitting = std::ranges::find_if(all, [&](const auto& one) { return fits(name, one.first); });
+  return fitting == all.end() ? 0 : fitting->second;
 }
 
 Outcome lightmap(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   if (!ctx.resources) return Outcome::unchanged;
+  if (!options.densities.all.empty()) report_unused(options.densities, scene, ctx.diag);
   return bake_into(scene, options, ctx);
 }
 

@@ -1,7 +1,6 @@
 // What Scripts ask for while they run.
 #include <algorithm>
 
-#include "parsers/parsers.h"
 #include "passes/expand_protos/expand_protos.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 #include "passes/startup/limits.h"
@@ -91,16 +90,17 @@ void ScriptRun::create(Json asked, JsonOut& out) {
     return out.member("error", "createVrmlFromString is given too much");
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first == text.npos || (text[first] != '#' && text[first] != '<')) text.insert(0, header_of(scene_));
-  const ReadOptions options{.parse = {.depth = script_depth, .nodes = script_made_nodes - made_nodes_}};
+  const ParseLimits limits{.depth = script_depth, .nodes = script_made_nodes - made_nodes_};
   PassContext alone(ctx_.diag, ctx_.stats);  // no further files
-  const auto world = parse_world(text, "createVrmlFromString", options, ctx_.diag);
+  if (!ctx_.resources) return out.member("error", "createVrmlFromString needs PassContext::resources");
+  const auto world = ctx_.resources->parse(text, "createVrmlFromString", limits, ctx_.diag);
   if (!world) return out.member("error", "the text of createVrmlFromString is not a valid world");
-  lower_vrml1(world->scene, {}, alone);
-  expand_protos(world->scene, {.limit = static_cast<int>(script_made_nodes)}, alone);
-  made_nodes_ += world->scene.node_count();
+  lower_vrml1(*world, {}, alone);
+  expand_protos(*world, {.limit = static_cast<int>(script_made_nodes)}, alone);
+  made_nodes_ += world->node_count();
   if (made_nodes_ >= script_made_nodes) return out.member("error", "createVrmlFromString makes too many nodes");
   const auto n_before = static_cast<std::uint32_t>(scene_.node_count());
-  const Scope made = scene_.import(world->scene);
+  const Scope made = scene_.import(*world);
   for (auto n = n_before; n < scene_.node_count(); ++n) scene_.set_where(NodeId{n}, scene_.where(running_));
   for (const Route& r : made.routes) {
     scene_.main.routes.push_back(r);

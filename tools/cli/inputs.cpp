@@ -133,6 +133,8 @@ class Gatherer {
       if (line.empty()) continue;
       if (fs::is_regular_file(line, none))
         named(line, true);
+      else if (fs::is_directory(line, none))
+        leave_out(name + ": '" + line + "' is a folder; a list names files");
       else
         leave_out(name + ": there is no file '" + line + "'");
     }
@@ -208,19 +210,21 @@ class Gatherer {
                is_asset = rules_.assets && !is_world && !ending_of(name, asset_endings).empty();
     if (!is_asset && !(glob.empty() ? is_world : match(glob, names_of(inside)))) return;
     if (file.is_symlink(none) && !file.exists(none)) {
-      if (is_world && wanted(inside)) leave_out("'" + file.path().string() + "' is a link to a file that is not there");
+      if (is_world && wanted(inside, file.path())) leave_out("'" + file.path().string() + "' is a link to a file that is not there");
       return;
     }
     if (!file.is_regular_file(none)) return;
     ++n_found_;
-    n_unwanted_ += !is_asset && !wanted(inside);
-    if (is_asset || wanted(inside)) add(file.path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
+    const bool is_wanted = is_asset || wanted(inside, file.path());
+    n_unwanted_ += !is_wanted;
+    if (is_wanted) add(file.path(), std::move(inside), at, is_asset || rules_.assets, is_asset);
   }
 
-  /// Of an earlier corpus run: the scenes in it would be there twice. A word that names the folder itself means it.
+  /// Of an earlier corpus run or of `tiles`: the scenes in it would be there twice. A word that names the folder itself
+  /// means it.
   bool holds_outputs(const fs::path& folder) {
     std::error_code none;
-    if (!fs::is_directory(folder / ".wrlkit", none)) return false;
+    if (!fs::is_directory(folder / ".wrlkit", none) && !fs::exists(folder / "tileset.json", none)) return false;
     out_.passed_over.push_back("'" + folder.string() + "' holds outputs of wrlkit and is passed over");
     return true;
   }
@@ -232,8 +236,9 @@ class Gatherer {
     return !fault;
   }
 
-  bool wanted(const std::string& inside) const {
-    const auto matches = [&](const std::string& g) { return glob_matches(g, inside); };
+  bool wanted(const std::string& inside, const fs::path& path) const {
+    const auto given = path.lexically_normal().string();
+    const auto matches = [&](const std::string& g) { return glob_matches(g, inside) || glob_matches(g, given); };
     return (rules_.include.empty() || std::ranges::any_of(rules_.include, matches)) &&
            std::ranges::none_of(rules_.exclude, matches);
   }

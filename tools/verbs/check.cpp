@@ -4,6 +4,7 @@
 
 #include "base/text/json.h"
 #include "convert/missing_files.h"
+#include "convert/nothing_drawn.h"
 #include "convert/nothing_shown.h"
 #include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
@@ -20,14 +21,17 @@ namespace {
 
 /// Pictures are decoded and geometry is cut into triangles, as for a conversion.
 void check_contents(Session& s) {
+  const auto n_dropped = DrawnMeshes::n_dropped(s.diag());
   const WorldMeshes meshes(s.document());
   if (!meshes.good()) return;
   const Scene& scene = s.world().scene;
+  DrawnMeshes drawn(scene, meshes.triangles, s.diag(), n_dropped);
   for (NodeId n : reachable(scene, scene.main)) {
-    if (scene.is(n, nodes::X3DGeometryNode)) meshes.triangles(n);
+    if (scene.is(n, nodes::X3DGeometryNode)) drawn(n);
     if (scene.is(n, nodes::ImageTexture))
       s.resources().image(scene.get(n, nodes::image_texture::url), scene.where(n), s.diag());
   }
+  drawn.report();
 }
 
 /// Inlines and prototypes are followed, so that what is missing there is reported.

@@ -36,6 +36,13 @@ std::vector<TilesInput> inputs_of(const Flags& flags, int& code) {
   return out;
 }
 
+bool is_input(const Flags& flags, const std::string& folder) {
+  std::error_code none;
+  return std::ranges::any_of(flags.inputs, [&](const std::string& word) {
+    return std::filesystem::is_directory(word, none) && std::filesystem::equivalent(word, folder, none);
+  });
+}
+
 /// Nothing, which was printed, when --shard is not valid.
 std::optional<Shard> shard_of(const Flags& flags) {
   std::string why;
@@ -115,8 +122,8 @@ std::string text_of(const TilesMade& made, const std::string& folder) {
   if (made.n_over > 0) out += fmt::format("  tiles above the budget of draws or bytes: {}\n", made.n_over);
   if (made.n_failed > 0) out += fmt::format("  files that could not be read: {}\n", made.n_failed);
   if (!made.inlined.empty())
-    out += fmt::format("  files that others inline, shown as those show them and not by themselves: {} ({}{})\n", made.inlined.size(),
-                       made.inlined[0], made.inlined.size() > 1 ? ", ..." : "");
+    out += fmt::format("  files that others inline, shown as those show them and not by themselves: {} ({}{})\n",
+                       made.inlined.size(), made.inlined[0], made.inlined.size() > 1 ? ", ..." : "");
   if (made.n_cut > 0) out += fmt::format("  pieces of surfaces that are too large for a tile: {}\n", made.n_cut);
   if (made.lost.empty()) return out;
   out += "  lost, for tiles have no place for them:";
@@ -167,6 +174,10 @@ bool check_place(const std::vector<double>& at) {
 int run_tiles(const Flags& flags) {
   if (flags.output == "-") {
     fmt::print(stderr, "wrlkit tiles: -o: a folder is needed; standard output is none\n");
+    return usage;
+  }
+  if (is_input(flags, flags.output)) {
+    fmt::print(stderr, "wrlkit tiles: -o: '{}' is a folder of inputs; the tiles need one of their own\n", flags.output);
     return usage;
   }
   Session s(flags);

@@ -38,7 +38,7 @@ void write_window(JsonOut& json, const std::array<double, 4>& w) {
 }
 
 void write_angle(JsonOut& json, double angle) {
-  constexpr double narrow = 1e-3, wide = std::numbers::pi - 1e-3;
+  constexpr double narrow = 1e-6, wide = std::numbers::pi - 1e-3;
   json.member("yfov", std::isfinite(angle) ? std::clamp(angle, narrow, wide) : std::numbers::pi / 4);
 }
 

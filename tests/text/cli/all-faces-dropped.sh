@@ -7,7 +7,7 @@ shape later 'IndexedFaceSet { }'
 shape box 'Box { }'
 for name in faces grid later box; do
   echo "$name"
-  for words in "convert $name.wrl o.glb" "render $name.wrl o.png" "view $name.wrl -o o.html" "optimize $name.wrl q.glb"; do
+  for words in "convert $name.wrl o.glb" "render $name.wrl o.png" "view $name.wrl -o o.html" "optimize $name.wrl q.glb" "check $name.wrl"; do
     wrlkit $words -q 2>&1 | grep -o 'error.*'
     echo "${words%% *}: ${PIPESTATUS[0]}"
   done

@@ -18,6 +18,20 @@ cat out/main.bin
 run m -o out --format gltf --overwrite > log
 cat out/main.bin | head -c 8 | grep -c precious
 
+echo '-- of others, after the first run'
+mkdir later
+shape none.png > later/a.wrl
+run later -o later_out --format gltf
+shape none.png > later/b.wrl
+echo precious | tee later_out/b.bin > later_out/b.gltf
+run later -o later_out --format gltf
+cat later_out/b.bin later_out/b.gltf
+rm later_out/b.gltf
+run later -o later_out --format gltf
+cat later_out/b.bin
+ls later_out
+run later -o later_out --format gltf --overwrite
+
 echo '-- gone'
 rm out/main.bin
 run m -o out --format gltf

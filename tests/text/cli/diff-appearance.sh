@@ -35,6 +35,19 @@ compare '1 0 0' 0 0xff00 9 1 3
 echo '-- ROUTEs'
 grep -v ROUTE a.wrl > b.wrl
 wrlkit diff a.wrl b.wrl | tail -2
+compare_with() {
+  echo "-- $1"
+  sed "$2" a.wrl > b.wrl
+  wrlkit diff a.wrl b.wrl | tail -2
+}
+compare_with 'time of the animation' 's/TimeSensor { }/TimeSensor { cycleInterval 2 loop TRUE }/'
+compare_with Background 's/^Viewpoint/Background { skyColor 1 0 0 } &/'
+compare_with NavigationInfo 's/^Viewpoint/NavigationInfo { type "FLY" } &/'
+compare_with highlights 's/diffuseColor/specularColor 1 1 1 &/'
+compare_with 'sharper highlights' 's/diffuseColor/specularColor 1 1 1 shininess 0.8 &/'
+compare_with 'shininess without highlights' 's/diffuseColor/shininess 0.8 &/'
+compare_with Script 's/^Viewpoint/Script { url "vrmlscript: function f() { }" } &/'
+compare_with 'range of a LOD' 's/DEF T Transform/DEF L LOD { range [ 9 ] level Group { } } &/'
 echo '-- colours of faces'
 for color in '1 0 0' '0 1 0'; do
   echo "#VRML V2.0 utf8

@@ -48,3 +48,9 @@ for verb in info check "tiles -q -o tiles" "view -o v.html"; do
   wrlkit $verb @many.txt > out.txt 2> err.txt || code=$?
   echo "$code $(wc -l < err.txt) $(grep -o '8[.]wrl.*' err.txt)"
 done
+# A folder in a list is not a file; --include takes paths as they are given, too.
+printf 'in/a.wrl\nin/below\n' > mixed.txt
+wrlkit info @mixed.txt 2>&1 | grep 'wrlkit\|^in'
+for include in 'in/below/*' 'below/*' 'b.wrl' 'other/*'; do
+  wrlkit tiles in --include "$include" -o tiles 2>&1 | grep -o '^1 file\|^wrlkit.*'
+done

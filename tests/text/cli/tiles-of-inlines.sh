@@ -12,5 +12,18 @@ for order in 'main.wrl other.wrl part.wrl zip.wrl' 'zip.wrl part.wrl other.wrl m
   wrlkit tiles $order -o set
   wrlkit tiles $order -o set --json | grep -o '"files":[0-9]*\|"inlined":[^]]*\|"triangles":[0-9]*,"parts":[0-9]*' | head -3
 done
+echo '-- below a Switch that is off'
+mkdir off
+(echo '#VRML V2.0 utf8'; box 5; echo 'Switch { choice Inline { url "part.wrl" } }') > off/main.wrl
+cp part.wrl off
+wrlkit tiles off -o off_set 2>&1 | grep 'inline,\|1 part'
+wrlkit tiles off -o off_set --show-all 2>&1 | grep 'inline,\|parts'
+echo '-- in circles'
 wrlkit tiles loop -o loop_set -q --json 2> log | grep -o '"inlined":[^]]*\|"triangles":[0-9]*' | head -2
 grep -o "error: .*" log
+echo '-- into the folder of the inputs'
+wrlkit tiles off -o off/ 2>&1
+ls off
+wrlkit tiles off -o off/set -q
+wrlkit info off 2>&1 | grep 'passed over'
+true
