@@ -175,6 +175,7 @@ class Gatherer {
   void folder(const std::string& path, const std::string& pattern) {
     const auto at = root(path);
     const auto parts = names_of(pattern);
+    const bool is_any_depth = parts.empty() || std::ranges::find(parts, "**") != parts.end();
     std::error_code fault;
     fs::recursive_directory_iterator i(path, fs::directory_options::follow_directory_symlink, fault), end;
     if (fault) return leave_out("cannot read the folder '" + path + "': " + fault.message());
@@ -183,9 +184,10 @@ class Gatherer {
       const auto name = i->path().filename().string();
       std::error_code none;
       const bool is_folder = i->is_directory(none);
-      if (name.starts_with('.') ||
-          (is_folder && !output_.empty() && fs::weakly_canonical(i->path(), none) == output_) ||
-          i.depth() > most_depth) {
+      const bool is_too_deep =
+          i.depth() > most_depth || (is_folder && !is_any_depth && static_cast<std::size_t>(i.depth()) + 1 >= parts.size());
+      if (name.starts_with('.') || is_too_deep ||
+          (is_folder && !output_.empty() && fs::weakly_canonical(i->path(), none) == output_)) {
         if (is_folder) i.disable_recursion_pending();
         continue;
       }

@@ -88,10 +88,9 @@ constexpr Verb all_verbs[] = {
      run_cat, ".wrl .wrz .wrl.gz .vrml", "",
      "it prints the scene itself; write that to a file with -o, or use wrlkit info --json"},
     {"diff",
-     "compare two scenes: structure, names, the distance between their surfaces, colours and pictures, ROUTEs, "
-     "animations, Viewpoints, lights, and what other nodes say; not the places of pictures, nor points within lines; "
-     "the exit code is 0 "
-     "even if they differ",
+     "compare two scenes: structure, names, the distance between their surfaces, colours and pictures, and what nodes "
+     "say (ROUTEs, animations, Viewpoints, lights and others); the places of pictures and points within lines are "
+     "not compared; the exit code is 0 even if they differ",
      "wrlkit diff plant.wrl simpler.wrl\n  wrlkit diff plant.wrl simpler.wrl --json",
      [](CLI::App& v, Flags& f) {
        for (const char* name : {"A", "B"})

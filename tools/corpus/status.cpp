@@ -60,10 +60,10 @@ void CorpusStatus::add(JobState state, double cost, bool again) {
   ++done_;
   ++states_[static_cast<std::size_t>(state)];
   done_cost_ += cost;
-  if (again)
-    ++before_;
-  else
+  if (!again)
     cost_now_ += cost;
+  else if (++before_; !is_made(state))
+    ++failed_before_;
 }
 
 void CorpusStatus::failed(const std::string& input, const std::string& cause) {
@@ -115,6 +115,9 @@ void CorpusStatus::count_messages(const std::string& messages) {
 void CorpusStatus::end(const std::string& out) {
   clear();
   fmt::print(stderr, "{}{}{}", quiet_ ? "" : summary(), quiet_ ? "" : hidden(), lacking(out));
+  if (failed_before_ > 0)
+    fmt::print(stderr, "failed in an earlier run: {}; 'wrlkit corpus report {}' lists them, --retry tries them again\n",
+               counted(failed_before_, "file"), out);
 }
 
 std::string CorpusStatus::json() const {

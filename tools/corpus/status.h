@@ -39,7 +39,7 @@ class CorpusStatus {
   std::string lacking(const std::string& out) const;
   std::string hidden() const;
 
-  std::size_t files_, done_ = 0, before_ = 0, states_[6] = {};
+  std::size_t files_, done_ = 0, before_ = 0, failed_before_ = 0, states_[6] = {};
   std::map<std::string, std::size_t> errors_;   // files, by the name of the message
   std::size_t hidden_ = 0;                      // files of which Switches hide much
   double cost_, done_cost_ = 0, cost_now_ = 0;  // now: without what was done before

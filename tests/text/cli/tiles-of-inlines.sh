@@ -9,7 +9,7 @@ inline() { echo "Transform { translation $1 0 0 children Inline { url \"$2\" } }
 (echo '#VRML V2.0 utf8'; box 1; inline 10 b.wrl) > loop/a.wrl
 (echo '#VRML V2.0 utf8'; box 2; inline 10 a.wrl) > loop/b.wrl
 for order in 'main.wrl other.wrl part.wrl zip.wrl' 'zip.wrl part.wrl other.wrl main.wrl'; do
-  wrlkit tiles $order -o set
+  wrlkit tiles $order -o set -q
   wrlkit tiles $order -o set --json | grep -o '"files":[0-9]*\|"inlined":[^]]*\|"triangles":[0-9]*,"parts":[0-9]*' | head -3
 done
 echo '-- below a Switch that is off'
