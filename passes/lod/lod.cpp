@@ -225,7 +225,8 @@ Outcome lod(Scene& scene, const LodOptions& options, PassContext& ctx) {
   report_inlines(scene, ctx.diag);
   if (options.ratios.values.empty() && options.errors.values.empty())
     ctx.diag.report(Diag::not_simplified, {}, "lod has neither ratios nor errors, so it makes no levels");
-  if (!options.errors.values.empty() && !options.ratios.values.empty() && options.ratios.values != LodOptions{}.ratios.values)
+  if (!options.errors.values.empty() && !options.ratios.values.empty() &&
+      options.ratios.values != LodOptions{}.ratios.values)
     ctx.diag.report(Diag::option_ignored, {}, "option ratios of lod", "errors are given, and levels are made by them");
   return options.scope == LodScope::part ? Lod(scene, options, ctx).run() : lods_of_world(scene, options, ctx);
 }
