@@ -8,6 +8,7 @@
 
 #include "parsers/gltf/names.h"
 #include "passes/analysis/text_list.h"
+#include "passes/inline/inline.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -40,6 +41,16 @@ WorldNames names_of(const Scene& scene) {
   return out;
 }
 
+/// Those of the files that Inlines name as well. What is missing there is reported, and not again by the passes.
+WorldNames names_of(const Document& document) {
+  const Scene& scene = document.scene();
+  if (std::ranges::none_of(reachable(scene, scene.main), [&](NodeId n) { return scene.is(n, nodes::Inline); }))
+    return names_of(scene);
+  Document copy = document.copy();
+  inline_worlds(copy.scene(), {}, copy.context());
+  return names_of(copy.scene());
+}
+
 void find_lost(const WorldNames& names, const std::string& path, Optimized& out) {
   std::ifstream file(path, std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), {});
@@ -60,7 +71,7 @@ void report_lost(const std::vector<std::string>& lost, Diagnostics& diag) {
 
 Optimized optimize(Document& document, Pipeline& pipeline, const Output& to, const SaveOptions& options,
                    const SaveHooks& hooks) {
-  const WorldNames names = names_of(document.scene());
+  const WorldNames names = names_of(document);
   Optimized out;
   static_cast<Saved&>(out) = write_document(document, pipeline, to, options, hooks);
   out.n_names = names.all.size();

@@ -49,6 +49,8 @@ int no_such_verb(const std::string& word) {
   nearest.consider("help");
   if (!ending_of(word, scene_endings()).empty()) return say(fmt::format("there is no file '{}'", word));
   const bool near = !nearest.best().empty();
+  if (!near && word.find_first_of("./") != word.npos)
+    return say(fmt::format("there is no file '{}', and no such verb; see wrlkit --help", word));
   if (!near && find_pass(word)) return say(fmt::format("'{}' is a pass, not a verb; see wrlkit passes {}", word, word));
   return say(fmt::format("there is no verb '{}'{}{}", spoken_verb(word),
                          near ? fmt::format("; did you mean '{}'?", spoken_verb(std::string(nearest.best()))) : ";",
@@ -65,6 +67,8 @@ std::optional<int> verb_of_files(std::vector<std::string>& words) {
   const auto is_output = [](const std::string& word) { return !word.starts_with('-') && output_of(word).has_value(); };
   const auto output = std::find_if(words.begin() + 1, words.end(), is_output);
   if (output == words.end()) {
+    if (words.size() > 1 && !words[1].starts_with('-') && !is_file(words[1]) && words[1].find('.') != std::string::npos)
+      return say(fmt::format("there is no file '{}', and no format has its ending; see wrlkit formats", words[1]));
     words.insert(words.begin(), "info");
     return std::nullopt;
   }
@@ -151,12 +155,15 @@ std::string in_our_words(const std::string& what) {
                        is_list ? "; commas separate the values of a list: 1,2,3" : "");
   }
   if (const auto option = between(what, "", ": At Most 1 required but received "))
-    return *option + ": only one value can be given";
+    return *option + ": only one value can be given" +
+           (option->ends_with("pipeline") ? "; commas separate passes: -p weld,lod" : "");
   if (const auto option = between(what, "", ": 1 required "); option && what.ends_with(" missing"))
     return *option + ": a value is missing";
   const auto value = between(what, "Value ", " not in range "), least = between(what, " not in range ", " to "),
              most = between(what, " to ", "");
   double number = 0;
+  if (value && !read_number(std::string_view(*value), number))
+    return fmt::format("{}'{}' is not a number", what.substr(0, what.find("Value ")), *value);
   if (value && read_number(std::string_view(*value), number) && number >= 1 &&
       value->find_first_of(".eE") != value->npos)
     return fmt::format("{}{} is not a whole number", what.substr(0, what.find("Value ")), *value);
@@ -176,7 +183,7 @@ std::string program_option_fault(const std::vector<std::string>& words) {
   for (const auto* option : {"--help", "--version"}) nearest.consider(option);
   const auto question = nearest.question();
   return fmt::format("wrlkit: there is no option '{}' without a verb{}\n", words[0],
-                     question.empty() ? "; see wrlkit --help" : question);
+                     question.empty() ? "; options stand behind a verb; see wrlkit --help" : question);
 }
 
 std::optional<int> put_verb_first(std::vector<std::string>& words) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <iterator>
 #include <optional>
+#include <set>
 
 #include "base/io/output.h"
 #include "base/silent_task.h"
@@ -18,9 +20,11 @@
 #include "convert/writing.h"
 #include "geometry/progressive/progressive_world.h"
 #include "geometry/simplify/world_levels.h"
+#include "passes/analysis/text_list.h"
 #include "passes/expand/expand.h"
 #include "passes/expand_protos/expand_protos.h"
 #include "passes/lod/first_levels.h"
+#include "scenegraph/walk.h"
 #include "tools/cli/lengths.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
@@ -234,12 +238,40 @@ struct Names {
   std::string file = {};
 };
 
+/// Names that levels do not have: those of the geometry of parts that were left out.
+class LostNames {
+ public:
+  explicit LostNames(const Scene& scene) : all_(names_of(scene)) {}
+  void look_at(const Scene& level) {
+    const auto there = names_of(level);
+    std::ranges::set_difference(all_, there, std::inserter(lost_, lost_.end()));
+  }
+  void report(Diagnostics& diag) const {
+    TextList list;
+    for (const auto& name : lost_) list.add(name);
+    if (!list.empty()) diag.report(Diag::names_lost, {}, "simplify", list.count(), list.text());
+  }
+
+ private:
+  using Names = std::set<std::string>;
+  static Names names_of(const Scene& scene) {
+    Names out;
+    for (const NodeId n : reachable(scene, scene.main))
+      if (!scene.name(n).empty()) out.emplace(scene.name(n));
+    return out;
+  }
+  Names all_, lost_;
+};
+
 /// One point is the scene itself, several are levels of detail. The format is that of the file's name.
 template <class World>
 bool write_one_file(Session& s, const World& world, const std::string& file, WrittenWorlds& all) {
   const bool one = all.points.size() == 1;
   (one ? all.points[0].file : all.lod_file) = file;
+  LostNames lost(s.world().scene);
   Document document({.scene = one ? world.scene_at(0) : world.scene_with_levels()}, s.context());
+  if (one) lost.look_at(document.scene());
+  lost.report(s.diag());
   return bool(save(std::move(document), file, s.flags().save));
 }
 
@@ -248,11 +280,15 @@ bool write_worlds(Session& s, const World& world, const Names& names, WrittenWor
   all = facts_of(world);
   if (!names.file.empty()) return write_one_file(s, world, names.file, all);
   const auto folder = std::filesystem::path(names.base).filename().string() + "_files";
+  LostNames lost(s.world().scene);
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     auto& p = all.points[i];
     p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
-    if (!write_world(s, p.file, world.scene_at(i), folder)) return false;
+    const Scene level = world.scene_at(i);
+    lost.look_at(level);
+    if (!write_world(s, p.file, level, folder)) return false;
   }
+  lost.report(s.diag());
   all.lod_file = names.base + "_lod" + names.ending;
   return write_world(s, all.lod_file, world.scene_with_levels(), folder);
 }
