@@ -217,6 +217,23 @@ bool has_area(const double* a, const double* b, const double* c) {
   return dot(n, n) > no_area * no_area * longest * longest || has_area_in_single(a, b, c);
 }
 
+void drop_faces_without_area(Mesh& mesh) {
+  const double* p = mesh.positions.data();
+  std::vector<std::uint32_t> kept;
+  for (std::uint32_t i = 0; i + 2 < mesh.corners.size(); i += 3) {
+    const auto at = [&](std::uint32_t corner) { return p + std::size_t{mesh.corners[corner]} * 3; };
+    if (has_area(at(i), at(i + 1), at(i + 2))) kept.insert(kept.end(), {i, i + 1, i + 2});
+  }
+  if (kept.size() == mesh.corners.size()) return;
+  const auto take = [&](std::vector<std::uint32_t>& stream) {
+    for (std::size_t i = 0; i < kept.size(); ++i) stream[i] = stream[kept[i]];
+    stream.resize(kept.size());
+  };
+  take(mesh.corners);
+  for (Attribute* a : mesh.attributes())
+    if (a->present()) take(a->index);
+}
+
 bool cut_into_triangles(MeshJob& job) {
   if (job.mesh.kind != Mesh::Kind::faces) return false;
   return Triangulation(job).run();

@@ -25,4 +25,7 @@ bool cut_into_triangles(MeshJob& job);
 /// Whether a triangle has an area, in the sense above; positions are xyz.
 bool has_area(const double* a, const double* b, const double* c);
 
+/// Takes those without area out of a mesh of triangles (Mesh::is_triangles). Positions stay. O(n).
+void drop_faces_without_area(Mesh& mesh);
+
 }  // namespace wrlkit

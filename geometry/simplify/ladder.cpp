@@ -9,6 +9,7 @@
 #include "base/math/box.h"
 #include "base/math/vec.h"
 #include "geometry/simplify/fitted_surface.h"
+#include "geometry/triangulation.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -116,7 +117,13 @@ class Ladder {
     auto d = measure_distortion(triangles, nearest, some, nearest_, surface_, some.size());
     for (std::size_t i = 0; i < triangles.size() && spacing_ > 0; ++i)
       measure_edges(triangles[i], 4 * spacing_, nearest_, surface_, d);
-    rungs_.push_back({level, level.n_faces(), d, false});
+    push({level, 0, d, false});
+  }
+
+  void push(Rung rung) {
+    drop_faces_without_area(rung.mesh);
+    rung.n_faces = rung.mesh.n_faces();
+    rungs_.push_back(std::move(rung));
   }
 
   std::vector<SurfaceSample> strided(std::size_t n) const {
@@ -145,14 +152,14 @@ class Ladder {
 
   void add(const FittedSurface& surface) {
     const auto left = surface.mesh();
-    Rung rung{{}, left.faces.size(), surface.distortion(), true};
+    Rung rung{{}, 0, surface.distortion(), true};
     rung.mesh.kind = Mesh::Kind::faces;
     auto& positions = rung.mesh.positions.edit();
     for (const Vec3& p : left.positions) positions.insert(positions.end(), p.begin(), p.end());
     for (const auto& f : left.faces) rung.mesh.corners.insert(rung.mesh.corners.end(), f.begin(), f.end());
     rung.mesh.crease_angle = part_.mesh.crease_angle;
     rung.mesh.ccw = part_.mesh.ccw;
-    rungs_.push_back(std::move(rung));
+    push(std::move(rung));
   }
 
   const LadderPart& part_;

@@ -6,6 +6,7 @@
 #include "geometry/normals.h"
 #include "geometry/simplify/given_attributes.h"
 #include "geometry/simplify/pieces.h"
+#include "geometry/triangulation.h"
 
 namespace wrlkit::simplify {
 namespace {
@@ -36,6 +37,7 @@ class PartOnRungs {
     Mesh out = rung.mesh;
     out.ccw = given_.ccw;
     transform(out, part_.from_ladder);
+    drop_faces_without_area(out);
     if (!attributes_) attributes_.emplace(given_);
     attributes_->give(out);
     return out;

@@ -7,6 +7,7 @@
 
 #include "base/text/nearest_name.h"
 #include "geometry/deviation.h"
+#include "geometry/triangulation.h"
 
 namespace wrlkit {
 namespace {
@@ -31,6 +32,7 @@ MeshLevel measured(const Mesh& first, Mesh mesh, const CollapseOptions& options)
   for (auto i : options.fixed) fixed.push_back(triangles_of(first).position(i));
   std::ranges::sort(fixed);
   round_positions(mesh, fixed);
+  drop_faces_without_area(mesh);
   auto d = measure_deviation(triangles_of(first), triangles_of(mesh));
   return {std::move(mesh), d.rms, d.max, d.normal_mean};
 }

@@ -204,32 +204,33 @@ void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) 
   print_missed(options, all);
 }
 
-/// As `info` counts those of the document that was read. Nothing is reported, nor will it be when it is asked for
-/// again: for after the passes have run.
-std::size_t drawn_triangles(Document& as_read, const LoadOptions& load) {
-  Diagnostics unheard(as_read.diag().shared_sources());
-  Document silent({.scene = as_read.scene()}, PassContext{unheard, as_read.context().stats, as_read.resources()});
+/// Triangles of a scene as `info` counts them.
+struct Triangles {
+  std::size_t drawn = 0, unique = 0;
+};
+
+/// Nothing is reported, nor will it be when it is asked for again: for after the passes have run.
+Triangles triangles_of(Document& from, Scene scene, const LoadOptions& load = {}) {
+  Diagnostics unheard(from.diag().shared_sources());
+  Statistics uncounted;
+  Document silent({.scene = std::move(scene)}, PassContext{unheard, uncounted, from.resources()});
   if (load.show_all) expand(silent.scene(), {}, silent.context());
   if (load.show_all) show_all(silent.scene());
   if (load.run_startup) run_startup(silent.scene(), silent.context());
   const WorldMeshes meshes(silent);
-  return meshes.good() ? count_geometry(silent.scene(), meshes.triangles, meshes.triangles).triangles : 0;
+  if (!meshes.good()) return {};
+  const auto census = count_geometry(silent.scene(), meshes.triangles, meshes.triangles);
+  return {census.triangles, census.unique};
 }
 
-WrittenWorlds facts_of(const WorldLevels& world) {
-  WrittenWorlds all{world.n_drawn(), world.n_faces(), {}, {}};
-  for (const auto& p : world.points()) all.points.push_back({{}, p.n_drawn, p.n_faces, p.n_gone, p.rms, p.max});
+void add_points(const WorldLevels& world, WrittenWorlds& all) {
+  for (const auto& p : world.points()) all.points.push_back({{}, 0, 0, p.n_gone, p.rms, p.max});
   all.n_texts = world.n_texts_as_faces();
-  return all;
 }
 
-WrittenWorlds facts_of(const SimplifiedWorld& world) {
-  WrittenWorlds all{world.n_faces(), world.n_faces(), {}, {}};
-  for (std::size_t i = 0; i < world.n_points(); ++i) {
-    const auto& p = world.point(i);
-    all.points.push_back({{}, p.n_faces, p.n_faces, 0, p.rms, p.error});
-  }
-  return all;
+void add_points(const SimplifiedWorld& world, WrittenWorlds& all) {
+  for (std::size_t i = 0; i < world.n_points(); ++i)
+    all.points.push_back({{}, 0, 0, 0, world.point(i).rms, world.point(i).error});
 }
 
 /// Where the scenes go: NAME_TRIANGLES.wrl, and NAME_lod.wrl; or one file.
@@ -241,6 +242,7 @@ struct Names {
 /// Names that levels do not have: those of the geometry of parts that were left out.
 class LostNames {
  public:
+  LostNames() = default;
   explicit LostNames(const Scene& scene) : all_(names_of(scene)) {}
   void look_at(const Scene& level) {
     const auto there = names_of(level);
@@ -263,34 +265,52 @@ class LostNames {
   Names all_, lost_;
 };
 
+/// The scene of a point, whose triangles are counted.
+template <class World>
+Scene level_of(Session& s, const World& world, std::size_t point, WrittenWorlds& all, LostNames& lost) {
+  Scene level = world.scene_at(point);
+  lost.look_at(level);
+  const auto counted = triangles_of(s.document(), level);
+  all.points[point].n_drawn = counted.drawn;
+  all.points[point].n_faces = counted.unique;
+  return level;
+}
+
 /// One point is the scene itself, several are levels of detail. The format is that of the file's name.
 template <class World>
-bool write_one_file(Session& s, const World& world, const std::string& file, WrittenWorlds& all) {
-  const bool one = all.points.size() == 1;
-  (one ? all.points[0].file : all.lod_file) = file;
-  LostNames lost(s.world().scene);
-  Document document({.scene = one ? world.scene_at(0) : world.scene_with_levels()}, s.context());
-  if (one) lost.look_at(document.scene());
-  lost.report(s.diag());
+bool write_one_file(Session& s, const World& world, const std::string& file, WrittenWorlds& all, LostNames& lost) {
+  std::optional<Scene> only;
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    only = level_of(s, world, i, all, lost);
+    if (all.points.size() > 1) only.reset();
+  }
+  (only ? all.points[0].file : all.lod_file) = file;
+  if (!only) lost = {};  // the first level has all names
+  Document document({.scene = only ? std::move(*only) : world.scene_with_levels()}, s.context());
   return bool(save(std::move(document), file, s.flags().save));
 }
 
 template <class World>
-bool write_worlds(Session& s, const World& world, const Names& names, WrittenWorlds& all) {
-  all = facts_of(world);
-  if (!names.file.empty()) return write_one_file(s, world, names.file, all);
+bool write_files(Session& s, const World& world, const Names& names, WrittenWorlds& all, LostNames& lost) {
   const auto folder = std::filesystem::path(names.base).filename().string() + "_files";
-  LostNames lost(s.world().scene);
   for (std::size_t i = 0; i < all.points.size(); ++i) {
+    const Scene level = level_of(s, world, i, all, lost);
     auto& p = all.points[i];
     p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
-    const Scene level = world.scene_at(i);
-    lost.look_at(level);
     if (!write_world(s, p.file, level, folder)) return false;
   }
-  lost.report(s.diag());
   all.lod_file = names.base + "_lod" + names.ending;
   return write_world(s, all.lod_file, world.scene_with_levels(), folder);
+}
+
+template <class World>
+bool write_worlds(Session& s, const World& world, const Names& names, WrittenWorlds& all) {
+  add_points(world, all);
+  LostNames lost(s.world().scene);
+  const bool is_written =
+      names.file.empty() ? write_files(s, world, names, all, lost) : write_one_file(s, world, names.file, all, lost);
+  lost.report(s.diag());
+  return is_written;
 }
 
 /// Instances of prototypes replaced by their bodies; nothing when there are none, or too many.
@@ -337,8 +357,7 @@ void warn_of_idle_counts(const Flags& flags, const WrittenWorlds& all) {
 
 /// As one scene with one budget where there are several parts and the triangles are counted; otherwise each
 /// surface for itself, unless the criterion does not go as far as was asked.
-bool simplify_world(Session& s, Document& as_read, WorldSimplifyOptions& options, const Names& names,
-                    WrittenWorlds& all) {
+bool simplify_world(Session& s, WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;
   SilentTask silent(s.context());
   std::optional<Scene> expanded;
@@ -348,7 +367,7 @@ bool simplify_world(Session& s, Document& as_read, WorldSimplifyOptions& options
     options.text = OfText::take;
     expanded = expanded_scene(s);
     options.expanded = expanded ? &*expanded : nullptr;
-    if (options.drawn == 0) options.drawn = drawn_triangles(as_read, s.flags().load);
+    options.drawn = all.n_drawn;
     const WorldLevels world(scene, options, silent);
     if (world.n_drawn() > WorldLevels::most_drawn)
       s.diag().report(Diag::not_simplified, {},
@@ -357,9 +376,8 @@ bool simplify_world(Session& s, Document& as_read, WorldSimplifyOptions& options
     is_missed = world.missed().has_value();
     n_drawn_once = world.is_drawn_once() ? world.n_faces() : 0;
     if (is_missed && !s.flags().pipeline_given && open_up(s, expanded)) {
-      const bool is_written = simplify_world(s, as_read, options, names, all);
       all.is_opened = true;
-      return is_written;
+      return simplify_world(s, options, names, all);
     }
     if (world.n_parts() > 1) {
       world.report_missed(s.diag());  // first: of many messages of a kind the first ones are shown
@@ -417,9 +435,11 @@ int run_simplify(const Flags& flags) {
   if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, names.base + names.ending);
   if (names.file.empty()) report_missing_parts(s.world().scene, s.resources(), s.diag());  // as save() does
   WrittenWorlds all;
+  const auto first = triangles_of(as_read, as_read.scene(), s.flags().load);
+  all.n_drawn = first.drawn;
+  all.n_faces = first.unique;
   s.progress().begin("simplifying", 0, "");
-  if (!simplify_world(s, as_read, *options, names, all)) return s.end(false);
-  if (all.points.empty()) all.n_drawn = std::max(all.n_drawn, options->drawn);  // all of it may be what stays
+  if (!simplify_world(s, *options, names, all)) return s.end(false);
   if (all.n_drawn == 0) s.diag().report(Diag::nothing_drawn, {}, "it has no surface to simplify");
   s.progress().clear();
   warn_of_idle_counts(flags, all);
