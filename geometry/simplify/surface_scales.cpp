@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenegraph/nodes.h"
 #include "scenegraph/places/places.h"
 
 namespace wrlkit {
@@ -21,6 +22,19 @@ std::vector<double> largest_scales(const Scene& scene, std::span<const ShapeSurf
   });
   for (double& s : scale)
     if (!(s > 0) || !std::isfinite(s)) s = 1;
+  return scale;
+}
+
+std::vector<double> largest_scales(const Scene& scene, const Scene& expanded, std::span<const ShapeSurface> surfaces) {
+  std::vector<double> by_geometry(expanded.node_count());
+  for_each_place(expanded, Shown::all, [&](NodeId shape, const Matrix& m) {
+    const NodeId geometry = expanded.get(shape, nodes::shape::geometry);
+    const double s = scale_of(m);
+    if (geometry && s > 0 && std::isfinite(s)) by_geometry[geometry.value] = std::max(by_geometry[geometry.value], s);
+  });
+  auto scale = largest_scales(scene, surfaces);
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    if (const double s = by_geometry[surfaces[i].geometry.value]; s > 0) scale[i] = s;
   return scale;
 }
 

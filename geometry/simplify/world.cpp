@@ -96,10 +96,10 @@ std::vector<std::size_t> counts_of(const WorldSimplifyOptions& options, std::siz
 
 SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions& options, Task& ctx)
     : scene_(scene), budget_(options.budget) {
-  read_parts(options.collapse, ctx);
+  read_parts(options, ctx);
   auto errors = options.errors;
   std::ranges::sort(errors);
-  const auto counts = counts_of(options, n_faces_);
+  const auto counts = counts_of(options, options.drawn > 0 ? options.drawn : n_faces_);
   std::vector<std::vector<std::size_t>> faces;
   if (errors.empty() && parts_.size() > 1) {
     std::vector<std::optional<FacesByError>> curves(parts_.size());
@@ -134,10 +134,11 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   if (n_points > 0 && points_.empty()) ctx.diag.report(Diag::not_simplified, {}, "no edge may go");
 }
 
-void SimplifiedWorld::read_parts(const CollapseOptions& options, Task& ctx) {
+void SimplifiedWorld::read_parts(const WorldSimplifyOptions& options, Task& ctx) {
   SurfaceReader reader(scene_, ctx);
   const auto surfaces = surfaces_of(scene_, report_not_simplified(scene_, ctx.diag), BelowLod::leave_levels);
-  const auto scales = largest_scales(scene_, surfaces);
+  const auto scales =
+      options.expanded ? largest_scales(scene_, *options.expanded, surfaces) : largest_scales(scene_, surfaces);
   SharedBorders borders;
   Mesh mesh;
   std::vector<std::size_t> number;  // of the surface of each part
@@ -148,7 +149,7 @@ void SimplifiedWorld::read_parts(const CollapseOptions& options, Task& ctx) {
     n_faces_ += mesh.n_faces();
     number.push_back(i);
     const double area = area_of(mesh) * scales[i] * scales[i];
-    parts_.push_back({surfaces[i], std::move(mesh), options, scales[i], area, {}, {}});
+    parts_.push_back({surfaces[i], std::move(mesh), options.collapse, scales[i], area, {}, {}});
   }
   if (std::ranges::none_of(parts_, [](const Part& p) { return p.mesh.n_faces() > faces_of_a_box; })) return;
   auto fixed = borders.find(scene_, surfaces);

@@ -14,9 +14,9 @@ struct WorldSimplifyOptions {
   std::vector<std::size_t> counts;  // at these numbers of triangles
   std::vector<double> ratios;       // at these shares of the triangles
   std::vector<double> errors;       // with no surface farther than this from what it was, in metres of the world
-  std::size_t drawn = 0;            // of WorldLevels: triangles that the world draws; 0: those of its surfaces
-  /// Of WorldLevels: the scene with instances of prototypes replaced by their bodies, where nodes of both have
-  /// the same numbers; it says where surfaces are shown. None: there are no instances. It must outlive the levels.
+  std::size_t drawn = 0;            // triangles that the world draws, of which ratios are; 0: those of its surfaces
+  /// The scene with instances of prototypes replaced by their bodies, where nodes of both have the same numbers; it
+  /// says where surfaces are shown. None: there are no instances. It must outlive the levels.
   const Scene* expanded = nullptr;
   bool one_part = false;        // of WorldLevels: of a scene of one part, too
   OfText text = OfText::leave;  // of WorldLevels; take: letters are parts
@@ -63,7 +63,7 @@ class SimplifiedWorld {
     std::vector<MeshLevel> levels;  // different ones, the finest first
     std::vector<std::size_t> at;    // by interaction point: how many of the levels have gone by; 0: as it was
   };
-  void read_parts(const CollapseOptions& options, Task& ctx);
+  void read_parts(const WorldSimplifyOptions& options, Task& ctx);
   void measure_points(std::size_t n);
 
   const Scene& scene_;

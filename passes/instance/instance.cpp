@@ -6,11 +6,11 @@
 
 #include "base/silent_task.h"
 #include "geometry/geometry.h"
-#include "geometry/simplify/surface_scales.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/placed_surfaces.h"
 #include "passes/analysis/text_list.h"
 #include "passes/analysis/usage.h"
+#include "passes/analysis/world_scales.h"
 #include "passes/instance/match.h"
 #include "passes/instance/share_forms.h"
 #include "scenegraph/child_lists.h"
@@ -32,7 +32,7 @@ class Instancing {
   Outcome run() {
     const auto before = figures_of(scene_);
     surfaces_ = placed_surfaces(scene_, usage_, [&](NodeId, NodeId g) { return may_share(g); });
-    scale_ = largest_scales(scene_, surfaces_);
+    scale_ = world_scales(scene_, surfaces_, ctx_.resources);
     for (std::size_t i = 0; i < surfaces_.size(); ++i) sort_in(i);
     for (const auto& g : groups_)
       if (is_worth(g)) share(g);

@@ -13,6 +13,7 @@
 #include "geometry/simplify/lod_nodes.h"
 #include "geometry/simplify/shared_borders.h"
 #include "geometry/simplify/world_levels.h"
+#include "passes/analysis/world_scales.h"
 #include "passes/lod/cell_lods.h"
 #include "passes/pipeline/length_option.h"
 #include "scenegraph/nodes.h"
@@ -66,7 +67,7 @@ class Lod {
     fixed_.resize(surfaces_.size());
     scale_.resize(surfaces_.size(), 1);
     if (any) fixed_ = borders.find(scene_, surfaces_);
-    if (any && !options_.errors.values.empty()) scale_ = largest_scales(scene_, surfaces_);
+    if (any && !options_.errors.values.empty()) scale_ = world_scales(scene_, surfaces_, ctx_.resources);
   }
 
   bool is_large(const Mesh& mesh) const { return static_cast<int>(mesh.n_faces()) >= options_.min_faces; }

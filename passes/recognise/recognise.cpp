@@ -13,9 +13,9 @@
 #include "geometry/geometry.h"
 #include "geometry/recognise/pieces.h"
 #include "geometry/recognise/recognise.h"
-#include "geometry/simplify/surface_scales.h"
 #include "passes/analysis/placed_surfaces.h"
 #include "passes/analysis/usage.h"
+#include "passes/analysis/world_scales.h"
 #include "passes/instance/motion.h"
 #include "passes/recognise/faces.h"
 #include "scenegraph/child_lists.h"
@@ -181,7 +181,7 @@ void Recognising::look_at(std::size_t i, Mesh& mesh, MeshScratch& scratch, Task&
 
 /// Results lie by geometry, so that threads make no difference.
 void Recognising::find() {
-  scale_ = largest_scales(scene_, surfaces_);
+  scale_ = world_scales(scene_, surfaces_, ctx_.resources);
   found_.resize(surfaces_.size());
   if (surfaces_.empty()) return;
   steps();

@@ -337,7 +337,7 @@ bool open_up(Session& s, std::optional<Scene>& expanded) {
 
 /// Whether the last world has as few triangles as were asked for.
 bool is_reached(const SimplifiedWorld& world, const WorldSimplifyOptions& options) {
-  const auto counts = counts_of(options, world.n_faces());
+  const auto counts = counts_of(options, options.drawn > 0 ? options.drawn : world.n_faces());
   return counts.empty() || (world.n_points() > 0 && world.point(world.n_points() - 1).n_faces <= counts.back());
 }
 
@@ -360,13 +360,12 @@ void warn_of_idle_counts(const Flags& flags, const WrittenWorlds& all) {
 bool simplify_world(Session& s, WorldSimplifyOptions& options, const Names& names, WrittenWorlds& all) {
   const Scene& scene = s.world().scene;
   SilentTask silent(s.context());
-  std::optional<Scene> expanded;
+  std::optional<Scene> expanded = expanded_scene(s);
+  options.expanded = expanded ? &*expanded : nullptr;
   bool is_missed = false;
   std::size_t n_drawn_once = 0;  // triangles, where all surfaces are drawn, each in one place
   if (options.errors.empty()) {
     options.text = OfText::take;
-    expanded = expanded_scene(s);
-    options.expanded = expanded ? &*expanded : nullptr;
     options.drawn = all.n_drawn;
     const WorldLevels world(scene, options, silent);
     if (world.n_drawn() > WorldLevels::most_drawn)
@@ -385,10 +384,16 @@ bool simplify_world(Session& s, WorldSimplifyOptions& options, const Names& name
       return write_worlds(s, world, names, all);
     }
   }
-  const SimplifiedWorld world(scene, options, s.context());
+  auto of_surfaces = options;
+  if (n_drawn_once == 0) of_surfaces.drawn = 0;
+  const SimplifiedWorld world(scene, of_surfaces, s.context());
+  if (world.n_faces() == 0 && !options.errors.empty() && !s.flags().pipeline_given && open_up(s, expanded)) {
+    all.is_opened = true;
+    return simplify_world(s, options, names, all);
+  }
   if (world.n_faces() == 0) s.diag().report(Diag::not_simplified, {}, "there is no surface that may change");
   if (options.errors.empty() && world.n_faces() > 0 &&
-      (is_missed || !is_reached(world, options) || n_drawn_once != world.n_faces())) {
+      (is_missed || !is_reached(world, of_surfaces) || n_drawn_once != world.n_faces())) {
     options.one_part = true;
     const WorldLevels farther(scene, options, silent);
     farther.report_missed(s.diag());
