@@ -41,7 +41,7 @@ Texel Surface::base(const std::optional<Texel>& vertex, const std::optional<Texe
 
 void Surface::add(Texel& out, const Texel& texel) const {
   out.color = modulates || picture.texture->is_grey() ? texel.color * out.color : texel.color;
-  if (picture.texture->has_alpha()) out.alpha = texel.alpha;
+  if (picture.texture->has_alpha()) out.alpha = modulates ? texel.alpha * out.alpha : texel.alpha;
 }
 
 Surfaces::Surfaces(const Scene& scene, Resources* resources, Diagnostics& diag)

@@ -34,7 +34,7 @@ NodeId Hierarchy::camera(Json node, const TransformFields& place) {
 void Hierarchy::orthographic_camera(NodeId n, Json node, const TransformFields& place) {
   namespace f = nodes::ortho_viewpoint;
   const Json seen = c_.file.at(Table::cameras, c_.file.index(Table::cameras, node["camera"]))["orthographic"];
-  const double x = seen["xmag"].number(1), y = seen["ymag"].number(1);
+  const double x = seen["xmag"].number(1) * place.scale[0], y = seen["ymag"].number(1) * place.scale[1];
   if (place.translation != Vec3{0, 0, 10}) c_.scene.set(n, f::position, place.translation);
   if (place.rotation[3] != 0) c_.scene.set(n, f::orientation, place.rotation);
   if (x != 1 || y != 1) c_.scene.set(n, f::fieldOfView, std::vector<double>{-x, -y, x, y});

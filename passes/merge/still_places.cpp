@@ -19,12 +19,14 @@ StillPlaces::StillPlaces(const Scene& scene, const Usage& usage, bool by_name)
       by_name_(by_name),
       bound_(scene.node_count()),
       takers_(scene.node_count()),
+      chosen_(scene.node_count()),
       zone_at_(scene.node_count()),
       listed_(scene.node_count()),
       fixed_(scene.node_count()),
       named_(scene.node_count()),
       ways_(scene) {
   find_bound();
+  find_alternatives();
   walk();
   // A Shape that has to stay somewhere stays everywhere.
   const std::size_t before = places_.size();
@@ -39,6 +41,13 @@ void StillPlaces::find_bound() {
   std::vector<NodeId> all;
   for (std::uint32_t i = 0; i < scene_.proto_count(); ++i)
     reach(scene_, scene_.proto(ProtoId{i}).body.roots, bound_, all);
+}
+
+void StillPlaces::find_alternatives() {
+  for (const NodeId n : reachable(scene_, scene_.main))
+    if (scene_.is(n, nodes::Switch) || scene_.is(n, nodes::LOD))
+      for (const NodeId c : hierarchy_children(scene_, n))
+        if (c) ++chosen_[c.value];
 }
 
 void StillPlaces::walk() {
@@ -120,7 +129,7 @@ void StillPlaces::children(NodeId group, const Handed& as) {
   ways_.push(list, as);
 }
 
-/// Each child of a Switch or LOD is a scene of its own.
+/// Each child of a Switch or LOD is a scene of its own, unless it stands elsewhere, too.
 void StillPlaces::alternatives(NodeId node, const Handed& i) {
   const auto shown = shown_children(scene_, node);
   const auto list = hierarchy_children(scene_, node);
@@ -129,7 +138,8 @@ void StillPlaces::alternatives(NodeId node, const Handed& i) {
     Handed below = i;
     below.shown = i.shown && std::ranges::find(shown, *n) != shown.end();
     const bool group = !scene_.is(*n, nodes::Shape) && scene_.is(*n, nodes::X3DGroupingNode) &&
-                       !scene_.is(*n, nodes::Switch) && !scene_.is(*n, nodes::LOD) && !bound_[n->value];
+                       !scene_.is(*n, nodes::Switch) && !scene_.is(*n, nodes::LOD) && !bound_[n->value] &&
+                       chosen_[n->value] == usage_.uses(*n);
     if (!group) {
       below.zone = no_zone;
       ways_.push(*n, below);

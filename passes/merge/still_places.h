@@ -51,6 +51,7 @@ class StillPlaces {
     bool shown;
   };
   void find_bound();
+  void find_alternatives();
   void walk();
   void visit(NodeId node, const Handed&);
   void children(NodeId group, const Handed& as);
@@ -65,6 +66,7 @@ class StillPlaces {
   bool by_name_;
   std::vector<char> bound_;             // by node: of a prototype, or below what is not known
   std::vector<std::uint32_t> takers_;   // by node: lists out of which it may be taken
+  std::vector<std::uint32_t> chosen_;   // by node: how often it is a child of a Switch or LOD
   std::vector<std::uint32_t> zone_at_;  // by node, plus one
   std::vector<char> listed_, fixed_, named_;
   std::vector<Zone> zones_{Zone{.times = 1}};

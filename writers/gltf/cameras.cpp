@@ -33,8 +33,9 @@ Trs ortho_transform(const Scene& scene, NodeId n) {
   return placed_at({p[0] + shift[0], p[1] + shift[1], p[2] + shift[2]}, quaternion(o));
 }
 
-void write_window(JsonOut& json, const std::array<double, 4>& w) {
-  json.members("xmag", static_cast<float>((w[2] - w[0]) / 2), "ymag", static_cast<float>((w[3] - w[1]) / 2));
+void write_window(JsonOut& json, const std::array<double, 4>& w, double scale) {
+  json.members("xmag", static_cast<float>(scale * (w[2] - w[0]) / 2), "ymag",
+               static_cast<float>(scale * (w[3] - w[1]) / 2));
 }
 
 void write_angle(JsonOut& json, double angle) {
@@ -80,7 +81,7 @@ void write_camera(JsonOut& json, const Scene& scene, const Camera& camera, const
     if (auto name = camera_name(scene, camera.source); !name.empty()) json.member("name", name);
     json.object(ortho ? "orthographic" : "perspective", [&] {
       if (ortho)
-        write_window(json, window(scene, camera.source));
+        write_window(json, window(scene, camera.source), camera.scale);
       else
         write_angle(json, scene.get(camera.source, nodes::viewpoint::fieldOfView));
       json.members("znear", static_cast<float>(znear), "zfar", static_cast<float>(zfar));

@@ -14,7 +14,8 @@ namespace wrlkit::gltf {
 
 struct Camera {
   NodeId source;
-  Vec3 position;  // world
+  Vec3 position;     // world
+  double scale = 1;  // of its window, to the world: some viewers ignore that of nodes, and so its node has none there
 };
 
 /// What the NavigationInfo in force says about viewing (6.29); none: its defaults.

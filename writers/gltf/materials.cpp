@@ -118,9 +118,10 @@ Materials::Look Materials::look(NodeId appearance, SurfaceKind s) {
   read_material(l);
   if (l.alpha < 1 || (s.color && s.opacity) || moves(l, "transparency")) l.mode = Alpha::blend;
   if (l.texture.channels % 2 == 0 && l.texture.channels > 0) {
-    l.alpha = 1;
-    l.mode = l.texture.alpha;
-    l.shows_alpha = false;
+    const bool multiplies = l.appearance && multiplies_picture(scene_, l.appearance);
+    if (!multiplies || l.mode == Alpha::opaque) l.mode = l.texture.alpha;
+    if (!multiplies) l.alpha = 1;
+    l.shows_alpha = multiplies;
   }
   read_alpha_mode(l);
   if (l.appearance && s.faces && s.light) look_at_light(l);
@@ -355,7 +356,7 @@ std::vector<std::uint16_t> Materials::said_by_vrml97(const Look& l) const {
   if (one_color && !replaced_by_light(l)) said.push_back(m::diffuseColor.slot);
   if (!replaced_by_light(l) && (l.surface.faces || !l.surface.color)) said.push_back(m::emissiveColor.slot);
   const bool is_opaque = l.appearance && scene_.get(l.appearance, nodes::appearance::alphaMode) == "OPAQUE";
-  if ((l.texture.channels % 2 == 1 || l.texture.channels == 0) && !is_opaque) said.push_back(m::transparency.slot);
+  if (l.shows_alpha && !is_opaque) said.push_back(m::transparency.slot);
   return said;
 }
 

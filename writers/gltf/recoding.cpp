@@ -42,6 +42,15 @@ double psnr_of(const Image& a, const Image& b) {
   return sum > 0 ? std::min(most, 10 * std::log10(255.0 * 255.0 * static_cast<double>(a.pixels.size()) / sum)) : most;
 }
 
+/// Few pixels of strong colours: what has a loss halves their resolution of colour, and is hardly smaller.
+std::optional<std::string> lossless_instead(const Image& image, const Recoded& lossy, std::string& error) {
+  constexpr double poor = 25;  // dB
+  constexpr std::size_t times = 4, small = 1024;
+  if (lossy.psnr >= poor) return std::nullopt;
+  auto bytes = encode_png(image, error);
+  return bytes && bytes->size() <= std::max(small, times * lossy.bytes.size()) ? std::move(bytes) : std::nullopt;
+}
+
 }  // namespace
 
 bool may_recode(const GltfTextures& options, const PlainFile& plain, int width, int height) {
@@ -69,7 +78,10 @@ std::optional<Recoded> recoded(const Image& original, PixelMeaning meaning, cons
   auto seen = decode_image(out.bytes, {}, error);
   if (!seen) return std::nullopt;
   out.psnr = psnr_of(image, with_channels(std::move(*seen), image.channels));
-  return out;
+  auto exact = lossless_instead(image, out, error);
+  if (!exact) return out;
+  if (plain.mime == png && !out.resized) return std::nullopt;
+  return Recoded{std::move(*exact), png, out.resized};
 }
 
 }  // namespace wrlkit::gltf

@@ -213,11 +213,17 @@ std::uint32_t Builder::light(NodeId n) {
 
 std::uint32_t Builder::viewpoint(NodeId n) {
   first_visit(n);
-  Node node{.source = n, .transform = d_.add_transform(camera_transform(m_.scene, n), m_.animations.moves(n))};
+  const Matrix& frame = frames_.back().world;
+  Trs place = camera_transform(m_.scene, n);
+  const Vec3 seen_from = position(frame * matrix(place));
+  double scale = m_.scene.is(n, nodes::OrthoViewpoint) ? mean_scale(frame) : 1;
+  if (!(scale > 0) || !std::isfinite(scale)) scale = 1;
+  if (scale != 1) place.scale = {1 / scale, 1 / scale, 1 / scale};
+  Node node{.source = n, .transform = d_.add_transform(place, m_.animations.moves(n))};
   if (m_.options.cameras) {
     node.attachment = Attachment::camera;
     node.attached = static_cast<std::uint32_t>(d_.cameras.size());
-    d_.cameras.push_back({n, position(frames_.back().world * matrix(camera_transform(m_.scene, n)))});
+    d_.cameras.push_back({n, seen_from, scale});
   }
   auto id = d_.add(node);
   add_targets(m_, n, id, id, id);

@@ -70,7 +70,8 @@ bool only_places_a_mesh(const Makers& m, const Node& n, const Trs& t, double gro
     return false;
   if (!is_plain_or_root(m.scene, n.source) && !m.scene.is(n.source, nodes::Shape)) return false;
   const Geometry& g = m.meshes.geometries()[m.meshes.meshes()[n.attached].geometry];
-  if (g.morph != none || g.features != none) return false;
+  // Renderers make instances of triangles only.
+  if (g.morph != none || g.features != none || g.mode != Mode::triangles) return false;
   if (!fits(t.translation, growth) || !fits(t.scale, 1) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
   if (!m.keeps_everything()) return true;
   return n.same_as == none && !m.extras->is_routed(n.source) &&
