@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -15,9 +16,20 @@ bool should_be_drawn(const Scene& scene, NodeId n) {
   return scene.type(n).kind == NodeKind::unknown || (scene.is(n, nodes::X3DShapeNode) && !scene.is(n, nodes::Shape));
 }
 
+/// Shapes with geometry that something shows; not those in nodes and fields that are not known.
 bool has_geometry(const Scene& scene) {
-  return std::ranges::any_of(reachable(scene, scene.main),
-                             [&](NodeId n) { return scene.is(n, nodes::X3DGeometryNode); });
+  bool has_any = false;
+  for_each_place(scene, Shown::all, [&](NodeId shape, const Matrix&) {
+    has_any |= scene.is(scene.get(shape, nodes::shape::geometry), nodes::X3DGeometryNode);
+  });
+  return has_any;
+}
+
+/// Anywhere, and be it in a field that is not known.
+bool holds_geometry(const Scene& scene) {
+  return std::ranges::any_of(reachable(scene, scene.main), [&](NodeId n) {
+    return scene.is(n, nodes::X3DGeometryNode) || scene.is(n, nodes::X3DShapeNode);
+  });
 }
 
 std::string no_picture(std::string_view type) {
@@ -30,6 +42,9 @@ void say_why_empty(const Scene& scene, Diagnostics& diag) {
   const auto undrawn = std::ranges::find_if(all, [&](NodeId n) { return should_be_drawn(scene, n); });
   if (undrawn != all.end())
     diag.report(Diag::nothing_drawn, scene.where(*undrawn), no_picture(scene.type(*undrawn).name));
+  else if (diag.count(Diag::unknown_field) > 0 && holds_geometry(scene))
+    diag.report(Diag::nothing_drawn, roots.empty() ? scene.file : scene.where(roots[0]),
+                "it has no geometry, but fields that are not known");
   else if (diag.count(Diag::unknown_node) > 0)
     diag.report(Diag::nothing_drawn, roots.empty() ? scene.file : scene.where(roots[0]),
                 "it has no geometry, but nodes that are not known");
@@ -61,7 +76,7 @@ void DrawnMeshes::report() const {
   if (n_dropped(diag_) > n_before_)
     diag_.report(Diag::nothing_drawn, first_ ? scene_.where(first_) : scene_.file,
                  "all its faces, lines and points are dropped");
-  else if (!first_ && !has_geometry(scene_))
+  else if (!has_geometry(scene_))
     say_why_empty(scene_, diag_);
 }
 

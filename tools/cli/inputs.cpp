@@ -184,8 +184,8 @@ class Gatherer {
       const auto name = i->path().filename().string();
       std::error_code none;
       const bool is_folder = i->is_directory(none);
-      const bool is_too_deep = i.depth() > most_depth ||
-                               (is_folder && !is_any_depth && static_cast<std::size_t>(i.depth()) + 1 >= parts.size());
+      const bool is_too_deep = i.depth() > most_depth || (is_folder && !is_any_depth && !rules_.assets &&
+                                                          static_cast<std::size_t>(i.depth()) + 1 >= parts.size());
       if (name.starts_with('.') || is_too_deep ||
           (is_folder && !output_.empty() && fs::weakly_canonical(i->path(), none) == output_)) {
         if (is_folder) i.disable_recursion_pending();

@@ -70,17 +70,26 @@ std::string signal_text(int signal) {
                      strsignal(signal));
 }
 
+/// Where a word means all that lies below: a folder, or a glob with "**". Nothing where it means files.
+std::optional<fs::path> folder_below(const std::string& word) {
+  std::error_code none;
+  if (fs::is_directory(word, none)) return word;
+  if (word.find("**") == word.npos) return std::nullopt;
+  const auto front = fs::path(word.substr(0, word.find_first_of("*?["))).parent_path();
+  return front.empty() ? "." : front;
+}
+
 /// Whether the outputs would be written among the inputs: into one of their folders, or into one below with scenes
 /// that no run has made.
-bool is_input_folder(const CorpusPlan& plan, const std::string& out) {
+bool is_input_folder(const CorpusPlan& plan, const std::vector<std::string>& words, const std::string& out) {
   std::error_code none;
   const auto there = fs::weakly_canonical(out, none);
-  bool is_below = false;
-  for (const auto& root : plan.roots) {
-    const auto folder = fs::weakly_canonical(root, none);
-    if (folder == there) return true;
-    is_below |= !there.lexically_relative(folder).native().starts_with("..");
-  }
+  if (std::ranges::any_of(plan.roots, [&](const auto& root) { return fs::weakly_canonical(root, none) == there; }))
+    return true;
+  const bool is_below = std::ranges::any_of(words, [&](const std::string& word) {
+    const auto folder = folder_below(word);
+    return folder && !there.lexically_relative(fs::weakly_canonical(*folder, none)).native().starts_with("..");
+  });
   if (!is_below || !fs::is_directory(there, none) || fs::exists(corpus_folder(out), none)) return false;
   std::string unsaid;
   const auto inputs = gather_inputs({out}, {}, unsaid);
@@ -134,7 +143,7 @@ std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool a
   p.plan = std::move(*plan);
   for (std::uint32_t i = 0; i < p.plan.jobs.size(); ++i)
     if (flags.shard.empty() || p.plan.jobs[i].shard == p.shard.index) p.todo.push_back(i);
-  if (is_input_folder(p.plan, flags.output)) {
+  if (is_input_folder(p.plan, flags.inputs, flags.output)) {
     why = "'" + flags.output + "' is a folder of inputs; the outputs need one of their own";
     return fail();
   }

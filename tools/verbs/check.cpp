@@ -9,6 +9,7 @@
 #include "convert/startup_scripts.h"
 #include "convert/world_meshes.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/places.h"
 #include "scenegraph/verify.h"
 #include "scenegraph/walk.h"
 #include "tools/cli/documents.h"
@@ -26,8 +27,12 @@ void check_contents(Session& s) {
   if (!meshes.good()) return;
   const Scene& scene = s.world().scene;
   DrawnMeshes drawn(scene, meshes.triangles, s.diag(), n_dropped);
+  std::vector<char> has_place(scene.node_count());
+  for_each_place(scene, Shown::all, [&](NodeId shape, const Matrix&) {
+    if (const NodeId geometry = scene.get(shape, nodes::shape::geometry)) has_place[geometry.value] = 1;
+  });
   for (NodeId n : reachable(scene, scene.main)) {
-    if (scene.is(n, nodes::X3DGeometryNode)) drawn(n);
+    if (scene.is(n, nodes::X3DGeometryNode)) has_place[n.value] ? drawn(n) : meshes.triangles(n);
     if (scene.is(n, nodes::ImageTexture))
       s.resources().image(scene.get(n, nodes::image_texture::url), scene.where(n), s.diag());
   }
