@@ -356,7 +356,7 @@ bool Making::write_tile(std::uint32_t cell, std::span<const Piece> pieces, Task&
     return false;
   std::error_code fault;
   made.bytes = fs::file_size(path, fault);
-  made.rounding = summary.quantization.position;
+  made.rounding = summary.quantization.position + summary.quantization.rounding;
   if (summary.instances > 0) made.rounding += summary.quantization.placement + tolerance;
   made.hash = hash_of_file(path).value_or(ContentHash{}).low;
   made.triangles = summary.triangles;

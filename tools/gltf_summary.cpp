@@ -51,7 +51,7 @@ std::string summary_text(const GltfSummary& s) {
   const auto& q = s.quantization;
   if (q.tolerance <= 0) return out;
   out += fmt::format("  quantised: positions within {:.3g} mm (asked for: {:.3g} mm), places of nodes within {:.2g} mm",
-                     q.position * 1e3, q.tolerance * 1e3, q.placement * 1e3);
+                     (q.position + q.rounding) * 1e3, q.tolerance * 1e3, q.placement * 1e3);
   if (q.normal > 0) out += fmt::format(", normals {:.2g} degrees", q.normal * degrees);
   if (q.texcoord > 0) out += fmt::format(", texture coordinates {:.2g}", q.texcoord);
   if (q.color > 0) out += fmt::format(", colours {:.2g}", q.color);
@@ -82,7 +82,7 @@ std::string summary_json(const GltfSummary& s) {
       kinds("geometry_bytes", s.geometry_shares);
       const auto& q = s.quantization;
       if (q.tolerance > 0)
-        json.member("quantization", json_object("tolerance", q.tolerance, "position", q.position, "placement",
+        json.member("quantization", json_object("tolerance", q.tolerance, "position", q.position + q.rounding, "placement",
                                                 q.placement, "normal_degrees", q.normal * degrees, "texcoord",
                                                 q.texcoord, "color", q.color, "kept_as_floats", q.kept));
     });

@@ -57,6 +57,7 @@ struct GltfSummary {
   /// Largest differences between what is stored and what was there.
   struct Quantization {
     double tolerance = 0, position = 0;  // metres of the world
+    double rounding = 0;                 // the same, by single precision far from an origin; whatever the tolerance
     double placement = 0;                // the same, for numbers of nodes; not above this
     double normal = 0;                   // radians
     double texcoord = 0, color = 0;      // parts of a picture; of the full range

@@ -116,7 +116,7 @@ Geometry Meshes::make(NodeId n, bool texcoords) {
   if (!options_.ordered && scene_.is(n, nodes::IndexedFaceSet) && v.index.size() == mesh.corners.size())
     g.polygons = add_polygons(runs(mesh));
   g.origin = move_near_origin(mesh, texcoords);
-  report_coarse(n, mesh);
+  g.rounding = report_coarse(n, mesh);
   std::uint32_t positions = store_.positions(v.position, {v.min, v.max});
   if (!v.normal.empty()) g.normals = store_.vertices(View::normal, v.normal);
   g.opacity = v.color_width == 4;
@@ -198,12 +198,12 @@ std::uint32_t Meshes::move_near_origin(const Mesh& mesh, bool texcoords) {
 }
 
 /// A mesh that reaches too far for an origin of its own to help, with details that are no larger than the last digit.
-void Meshes::report_coarse(NodeId n, const Mesh& mesh) {
+double Meshes::report_coarse(NodeId n, const Mesh& mesh) {
   constexpr double least_reach = 1 << 14;  // up to there single precision says millimetres
-  double reach = 0, worst = 0;
+  double reach = 0, worst = 0, most = 0;
   for (std::size_t i = 0; i < 3; ++i)
     reach = std::max({reach, std::abs(double{vertices_.min[i]}), std::abs(double{vertices_.max[i]})});
-  if (reach < least_reach) return;
+  if (reach < least_reach) return 0;
   auto at = [&](std::size_t corner, std::size_t i) {
     return mesh.positions[mesh.corners[corner] * std::size_t{3} + i] - vertices_.origin[i];
   };
@@ -214,9 +214,11 @@ void Meshes::report_coarse(NodeId n, const Mesh& mesh) {
         moved = std::max(moved, std::abs(at(c, i) - static_cast<float>(at(c, i))));
         size = std::max(size, std::abs(at(c, i) - at(mesh.begin_of(f), i)));
       }
+    most = std::max(most, moved);
     if (moved > size / 4) worst = std::max(worst, moved);
   }
   if (worst > 0) diag_.report(Diag::coarse_positions, scene_.where(n), scene_.type(n).name, worst);
+  return std::sqrt(3) * most;
 }
 
 std::uint32_t Meshes::mesh(std::uint32_t geometry, const MaterialUse& use) {

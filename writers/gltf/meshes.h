@@ -37,6 +37,7 @@ struct Geometry {
   bool made_texcoords = false;    // its texture coordinates were asked for
   std::uint32_t polygons = none;  // into Meshes::polygons; none: all triangles
   double scale = 0;               // how many times larger it is in the world, at most, where it is shown
+  double rounding = 0;            // how far single precision moves its points, where that is much
 
   bool empty() const { return positions == none; }
   SurfaceKind surface() const {
@@ -108,7 +109,8 @@ class Meshes {
   VertexOptions options_with(bool texcoords) const;
   bool take_vertices(NodeId, bool texcoords);
   bool number_parts(NodeId, const Mesh&);
-  void report_coarse(NodeId, const Mesh&);
+  /// How far single precision moves its points, where that is more than a millimetre.
+  double report_coarse(NodeId, const Mesh&);
   std::uint32_t move_near_origin(const Mesh&, bool texcoords);
   std::uint32_t baked(const Geometry&, NodeId texture_transform, std::vector<float> Vertices::*places);
 

@@ -62,6 +62,7 @@ void Packing::note_uses(const Document& document) {
   for (const Geometry& g : meshes_.geometries()) {
     if (g.empty()) continue;
     scale_[g.positions] = std::max(scale_[g.positions], g.scale);
+    summary_.rounding = std::max(summary_.rounding, g.rounding * g.scale);
     if (g.morph != none) keep_floats(g);
     if (g.mode == Mode::triangles) faces_[g.positions].push_back(g.indices);
     if (g.indices != none && g.mode != Mode::triangles) lines_[g.indices] = 1;
