@@ -99,7 +99,7 @@ SimplifiedWorld::SimplifiedWorld(const Scene& scene, const WorldSimplifyOptions&
   read_parts(options, ctx);
   auto errors = options.errors;
   std::ranges::sort(errors);
-  const auto counts = counts_of(options, options.drawn > 0 ? options.drawn : n_faces_);
+  const auto counts = counts_of(options, options.drawn > 0 && n_faces_ > 0 ? options.drawn : n_faces_);
   std::vector<std::vector<std::size_t>> faces;
   if (errors.empty() && parts_.size() > 1) {
     std::vector<std::optional<FacesByError>> curves(parts_.size());

@@ -54,3 +54,4 @@ wrlkit info @mixed.txt 2>&1 | grep 'wrlkit\|^in'
 for include in 'in/below/*' 'below/*' 'b.wrl' 'other/*'; do
   wrlkit tiles in --include "$include" -o tiles 2>&1 | grep -o '^1 file\|^wrlkit.*'
 done
+true
