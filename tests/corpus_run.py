@@ -139,8 +139,10 @@ def exit_codes(tmp):
     corpus(RECIPE, a, '-o', tmp / 'c1', '--retry')
     check('--retry tries it again, and nothing else', len(journal(tmp / 'c1')) == 3)
     write(a / 'good.wrl', 'no longer one')
-    corpus(RECIPE, a, '-o', tmp / 'c1')
-    check('what can no longer be made does not stay', tree(tmp / 'c1') == {}, tree(tmp / 'c1'))
+    made = tree(tmp / 'c1')
+    code, _, err = corpus(RECIPE, a, '-o', tmp / 'c1')
+    check('what can no longer be made fails, and what was made before stays',
+          code == 3 and 'what was there before is untouched' in err and tree(tmp / 'c1') == made, code, err)
 
 
 def resume(tmp):

@@ -11,6 +11,8 @@ class FilesWritten {
  public:
   /// Why no file is replaced that was there before and is none of these; empty: any is. Set before anything is written.
   std::string refusal;
+  /// A symbolic link is replaced, and not what it leads to. Set before anything is written.
+  bool replaces_links = false;
 
   bool has(const std::string& path) const {
     const std::lock_guard lock(mutex_);

@@ -180,7 +180,9 @@ struct OutputFile::State {
 
   /// Whether the target is a file that was read.
   bool refuses_input() {
-    is_input = inputs && inputs->has(target.string());
+    std::error_code none;
+    const bool is_link = fs::is_symlink(target, none);  // which is replaced
+    is_input = inputs && !is_link && inputs->has(target.string());
     if (is_input) error = EEXIST;
     return is_input;
   }
@@ -342,7 +344,7 @@ OutputFile::~OutputFile() = default;
 std::optional<OutputFile> OutputFile::open(const std::string& path, OutputOptions options, Diagnostics& diag) {
   auto state = std::make_unique<State>();
   state->name = path;
-  state->target = behind_links(path);
+  state->target = options.written && options.written->replaces_links ? fs::path(path) : behind_links(path);
   state->inputs = options.inputs;
   state->written = options.written;
   state->report_replaced = options.report_replaced;

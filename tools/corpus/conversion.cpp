@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view of_others = "no corpus run has made what is there; --overwrite replaces it";
+constexpr std::string_view of_others =
+    "no corpus run has made what is there, or it has been changed since; --overwrite replaces it";
 constexpr std::uint64_t largest_asset = std::uint64_t{4} << 30;
 
 std::vector<std::string> allowed_folders(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job) {
@@ -50,6 +51,7 @@ bool copy(const std::string& from, const std::string& to, bool may_replace, std:
   if (!bytes) return false;
   FilesWritten written;
   if (!may_replace) written.refusal = of_others;
+  written.replaces_links = true;
   auto file = OutputFile::open(to, {.written = &written}, diag);
   if (file) file->write(*bytes);
   if (file && file->commit(diag)) return true;
@@ -78,7 +80,9 @@ bool convert(const Flags& flags, const ConversionExtras& extras, JournalLine& li
   }
   bool made = read_input(s);
   if (made) {
-    if (!extras.may_replace) s.resources().files_written().refusal = of_others;
+    auto& written = s.resources().files_written();
+    if (!extras.may_replace) written.refusal = of_others;
+    written.replaces_links = true;
     made = static_cast<bool>(write_world(s, save_options(flags), extras.last));
   }
   line.state = !made ? JobState::failed : s.diag().has_errors() ? JobState::made_partly : JobState::made;
@@ -181,9 +185,23 @@ DoneBefore::DoneBefore(const CorpusWork& work, const CorpusPlan& plan) : work_(w
   read_begun(folder, [&](std::string&& output) { unended_.insert(std::move(output)); });
   read_journals(folder, [&](JournalLine&& l) {
     if (l.state == JobState::failed || is_made(l.state)) unended_.erase(l.output);
-    if (is_made(l.state)) made_.insert(l.output);
-    known_[l.output] = {l.work, l.input_hash, l.output_bytes, l.state, std::move(l.files), std::move(l.companions)};
+    if (is_made(l.state)) made_.insert_or_assign(l.output, l.output_hash);
+    known_[l.output] = {std::move(l.input),     l.work, l.input_hash, l.output_bytes, l.state, std::move(l.files),
+                        std::move(l.companions)};
   });
+}
+
+bool DoneBefore::owns(const CorpusJob& job) const {
+  if (unended_.contains(job.output)) return true;
+  const auto made = made_.find(job.output);
+  if (made == made_.end()) return false;
+  const auto there = hash_of_file((fs::path(work_.out) / job.output).string());
+  return !there || *there == made->second;
+}
+
+bool DoneBefore::is_moved(const CorpusJob& job) const {
+  const auto at = known_.find(job.output);
+  return at != known_.end() && at->second.input != job.input.path;
 }
 
 std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {
@@ -197,7 +215,7 @@ std::optional<JobState> DoneBefore::state_of(const CorpusJob& job) {
     return fs::file_size(fs::path(work_.out) / file.path, fault) == file.bytes && !fault;
   };
   if (!std::ranges::all_of(known.companions, is_there)) return std::nullopt;
-  if (hash_of_file(job.input.path) != known.input) return std::nullopt;
+  if (hash_of_file(job.input.path) != known.input_hash) return std::nullopt;
   for (const auto& f : known.files)
     if (!still_the_same(job, f)) return std::nullopt;
   return known.state;

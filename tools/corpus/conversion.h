@@ -38,13 +38,18 @@ class DoneBefore {
   std::optional<JobState> state_of(const CorpusJob& job);
   /// Whether an earlier run has worked on that output.
   bool has(const CorpusJob& job) const { return known_.contains(job.output); }
-  /// Whether what lies where that output and its companions go is a run's own: one has made the output, or has begun it
-  /// and was killed.
-  bool owns(const CorpusJob& job) const { return made_.contains(job.output) || unended_.contains(job.output); }
+  /// Whether a run has made the output, or has begun it and was killed.
+  bool has_begun(const CorpusJob& job) const { return made_.contains(job.output) || unended_.contains(job.output); }
+  /// Whether what lies where that output and its companions go is a run's own, and was not changed since. Reads the
+  /// output.
+  bool owns(const CorpusJob& job) const;
+  /// Whether the input had another name when the job was done.
+  bool is_moved(const CorpusJob& job) const;
 
  private:
   struct Known {
-    ContentHash work, input;
+    std::string input;
+    ContentHash work, input_hash;
     std::uint64_t output_bytes;
     JobState state;
     std::vector<UsedFile> files;
@@ -55,7 +60,8 @@ class DoneBefore {
 
   const CorpusWork& work_;
   const CorpusPlan& plan_;
-  std::unordered_set<std::string> made_, unended_;       // outputs: at any time; begun, and not ended in order
+  std::unordered_map<std::string, ContentHash> made_;    // outputs that were made at any time, as they were last
+  std::unordered_set<std::string> unended_;              // outputs that were begun, and did not end in order
   std::unordered_map<std::string, Known> known_;         // by output
   std::unordered_map<std::string, ContentHash> hashes_;  // of files that inputs refer to
 };

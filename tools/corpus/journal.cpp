@@ -80,10 +80,14 @@ bool Journal::append_begun(const std::string& output) {
 
 void Journal::settle() { lines_.settle(); }
 
-void read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take) {
+std::size_t read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take) {
+  std::size_t n_damaged = 0;
   read_journal_lines(folder, [&](const std::string& text) {
-    if (auto l = journal_line(text)) take(std::move(*l));
+    auto line = journal_line(text);
+    n_damaged += !line;
+    if (line) take(std::move(*line));
   });
+  return n_damaged;
 }
 
 void read_begun(const std::string& folder, const std::function<void(std::string&&)>& take) {

@@ -108,8 +108,9 @@ class Journal {
   LineJournal lines_, begun_;
 };
 
-/// Every line of every journal of a run, journal by journal, in order. Memory: one line.
-void read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take);
+/// Every line of every journal of a run, journal by journal, in order. Memory: one line. Returns how many were damaged
+/// or cut off, which are passed over.
+std::size_t read_journals(const std::string& folder, const std::function<void(JournalLine&&)>& take);
 /// The outputs that were ever begun.
 void read_begun(const std::string& folder, const std::function<void(std::string&&)>& take);
 

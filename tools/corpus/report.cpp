@@ -60,6 +60,13 @@ bool is_there(const std::string& input) {
   return input.find(replaced) != input.npos || std::filesystem::exists(input, none);
 }
 
+/// Nothing when there is none.
+std::optional<std::uint64_t> size_of_output(const std::string& out, const ReportRow& row) {
+  std::error_code fault;
+  const auto size = std::filesystem::file_size(std::filesystem::path(out) / row.output, fault);
+  return fault ? std::nullopt : std::optional<std::uint64_t>(size);
+}
+
 std::string number_or_nothing(const std::optional<Look>& look, double Look::*member) {
   return look && std::isfinite(*look.*member) ? fmt::format("{:g}", *look.*member) : "";
 }
@@ -68,6 +75,10 @@ std::string number_or_nothing(const std::optional<Look>& look, double Look::*mem
 
 std::size_t CorpusReport::n(JobState s) const {
   return static_cast<std::size_t>(std::ranges::count(rows, s, &ReportRow::state));
+}
+
+std::size_t CorpusReport::n_changed() const {
+  return static_cast<std::size_t>(std::ranges::count(rows, true, &ReportRow::is_changed));
 }
 
 std::vector<std::pair<std::string_view, std::size_t>> CorpusReport::states() const {
@@ -90,11 +101,11 @@ CorpusReport read_report(const std::string& out) {
   std::unordered_map<std::string, std::size_t> last;
   std::size_t n = 0;
   bool has_inputs = false;
-  read_journals(corpus_folder(out), [&](JournalLine&& l) {
+  CorpusReport report{.out = out};
+  report.damaged = read_journals(corpus_folder(out), [&](JournalLine&& l) {
     has_inputs = has_inputs || is_there(l.input);
     last[std::move(l.output)] = n++;
   });
-  CorpusReport report{.out = out};
   report.rows.reserve(last.size());
   n = 0;
   read_journals(corpus_folder(out), [&](JournalLine&& l) {
@@ -111,6 +122,7 @@ CorpusReport read_report(const std::string& out) {
     row.errors = counts.errors;
     row.warnings = counts.warnings;
     row.lost = counts.lost;
+    row.is_changed = has_inputs && is_made(row.state) && size_of_output(out, row) != row.output_bytes;
     if (!path.empty()) row.look = read_look(path);
     report.rows.push_back(std::move(row));
   });

@@ -20,6 +20,7 @@ struct ReportRow {
   std::uint32_t errors = 0, warnings = 0, lost = 0;
   ContentHash output_hash;
   std::optional<Look> look;
+  bool is_changed = false;  // the output is not as large as it was made, or is gone
 
   void fields(auto&& f) const {
     f("input", name_to_json(input));
@@ -34,6 +35,7 @@ struct ReportRow {
     f("errors", errors);
     f("warnings", warnings);
     f("lost", lost);
+    if (is_changed) f("changed", true);
     if (!look) return;
     f("rms", look->rms);
     f("max", look->max);
@@ -70,13 +72,16 @@ struct Change {
 
 struct CorpusReport {
   std::string out;
-  std::vector<ReportRow> rows;                             // by output
-  std::size_t removed = 0;                                 // inputs that are no longer there; they have no rows
+  std::vector<ReportRow> rows;  // by output
+  std::size_t removed = 0;      // inputs that are no longer there; they have no rows
+  std::size_t damaged = 0;      // lines of the journals that cannot be read: files that were being done at the time
   std::map<std::string, ReportedKind, std::less<>> kinds;  // by name
   std::string compared;                                    // folder of the other run; empty: none
   std::vector<Change> changes;                             // those that are worse first
 
   std::size_t n(JobState s) const;
+  /// Outputs that are gone, or have another size than they were made with.
+  std::size_t n_changed() const;
   /// How many files came to each state.
   std::vector<std::pair<std::string_view, std::size_t>> states() const;
   /// The kinds, by name.
@@ -85,6 +90,8 @@ struct CorpusReport {
     f("folder", out);
     f("states", states());
     f("removed", removed);
+    f("changed", n_changed());
+    f("damaged", damaged);
     f("messages", messages());
     f("files", rows);
     if (compared.empty()) return;

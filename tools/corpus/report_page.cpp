@@ -57,6 +57,7 @@ class Page {
                    JobState::no_memory})
       if (r_.n(s)) put("<li><b{}>{}</b>{}</li>", is_made(s) ? "" : " class=\"bad\"", r_.n(s), to_string(s));
     if (r_.removed) put("<li><b>{}</b>no longer there</li>", r_.removed);
+    if (const auto n = r_.n_changed()) put("<li><b>{}</b>changed or gone since</li>", n);
     put("<li><b>{}</b>read</li><li><b>{}</b>written</li><li><b>{:.1f} s</b>of processor time</li></ul>\n",
         readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.input_bytes; }))),
         readable_size(static_cast<std::uint64_t>(sum([](const ReportRow& r) { return r.output_bytes; }))),

@@ -10,6 +10,7 @@
 #include "base/text/amounts.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/documents.h"
+#include "tools/cli/print_diagnostics.h"
 #include "tools/cli/progress.h"
 #include "tools/cli/session.h"
 #include "tools/corpus/conversion.h"
@@ -22,6 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double most_seconds = 120;
+
+/// Since the output was written.
+bool is_looked_at(const std::string& out, const JournalLine& line) {
+  std::error_code none;
+  const auto look = look_file(out, line);
+  return fs::exists(look, none) &&
+         fs::last_write_time(look, none) >= fs::last_write_time(fs::path(out) / line.output, none);
+}
 
 /// Lines of what was made and has not been looked at, at most that many.
 std::vector<JournalLine> to_be_looked_at(const std::string& out, std::size_t most) {
@@ -36,7 +45,7 @@ std::vector<JournalLine> to_be_looked_at(const std::string& out, std::size_t mos
   for (auto& [name, l] : last) {
     if (!is_made(l.state) || !without_ending(l.output) || n == most) continue;
     ++n;
-    if (!fs::exists(look_file(out, l))) lines.push_back(std::move(l));
+    if (!is_looked_at(out, l)) lines.push_back(std::move(l));
   }
   return lines;
 }
@@ -93,6 +102,17 @@ int run_corpus_report(const Flags& flags) {
   if (report.removed > 0 && !flags.quiet)
     fmt::print(stderr, "{} {} no longer there and not counted\n", report.removed,
                report.removed == 1 ? "input is" : "inputs are");
+  if (const auto n = report.n_changed(); n > 0) {
+    const auto first = std::ranges::find(report.rows, true, &ReportRow::is_changed);
+    complain("corpus report",
+             fmt::format("{} gone, or not as large as {} made: '{}'{}",
+                         n == 1 ? "1 output is" : fmt::format("{} outputs are", n), n == 1 ? "it was" : "they were",
+                         (fs::path(out) / first->output).string(), n > 1 ? ", ..." : ""));
+  }
+  if (report.damaged > 0)
+    complain("corpus report",
+             fmt::format("{} of the journals cannot be read and {} not counted; run again to do those files",
+                         counted(report.damaged, "line"), report.damaged == 1 ? "is" : "are"));
   if ((flags.json || !flags.report.empty()) && !give_document(flags, report_json(report))) return nothing;
   auto paths = flags.outputs;
   if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};
@@ -100,7 +120,7 @@ int run_corpus_report(const Flags& flags) {
     if (!write(report, path)) return nothing;
     if (!flags.quiet && path != "-") fmt::print(stderr, "{}\n", path);
   }
-  return std::ranges::any_of(report.changes, &Change::worse) ? partly : done;
+  return std::ranges::any_of(report.changes, &Change::worse) || report.n_changed() > 0 ? partly : done;
 }
 
 }  // namespace wrlkit

@@ -208,6 +208,7 @@ class Run {
                fmt::format("the journal in '{}' cannot be written: {}", corpus_folder(work_.out), journal_fault_));
       return nothing;
     }
+    note_moved();
     journal_.settle();
     if (!Workers::interrupted()) status.end(work_.out);
     if (!give_document(flags_, status.json())) return nothing;
@@ -259,6 +260,7 @@ class Run {
     const auto state = before_.state_of(job);
     const bool tries_again = flags_.retry || flags_.overwrite;  // a file of others may have been in the way
     if (!state || (tries_again && !is_made(*state))) return false;
+    if (before_.is_moved(job)) moved_.emplace(job.output, job.input.path);
     status_->add(*state, job.cost, true);
     return true;
   }
@@ -354,8 +356,8 @@ class Run {
     if (std::exchange(line.codecs, false) && ++with_codecs_ == few) load_image_codecs();
     if (!is_made(line.state)) {
       std::error_code none;
-      if (before_.has(job))
-        fs::remove(fs::path(work_.out) / job.output, none);  // made by another recipe, or of what the input was
+      if (before_.has_begun(job) && fs::exists(fs::path(work_.out) / job.output, none))
+        line.cause += "; what was there before is untouched";
       status_->failed(line.input, line.cause);
     }
     if (!journal_.append(line)) {
@@ -373,6 +375,19 @@ class Run {
     if (is_made(line.state)) status_->count_messages(line.messages);
     log(line, code, signal);
     status_->add(line.state, job.cost, false);
+  }
+
+  /// Inputs that have other names now: what was known of them is written down once more.
+  void note_moved() {
+    if (moved_.empty()) return;
+    std::unordered_map<std::string, JournalLine> last;
+    read_journals(corpus_folder(work_.out), [&](JournalLine&& line) {
+      if (moved_.contains(line.output)) last.insert_or_assign(line.output, std::move(line));
+    });
+    for (auto& [output, line] : last) {
+      line.input = moved_.at(output);
+      if (!journal_.append(line)) return;
+    }
   }
 
   static void measure(JournalLine& line, const WorkerEnd& end) {
@@ -439,7 +454,9 @@ class Run {
   std::string host_;
   std::vector<std::uint32_t> todo_, bundle_, alone_;  // bundle_: taken from todo_, not begun
   std::unordered_set<std::uint32_t> own_process_;
-  std::unordered_set<std::uint32_t> begun_;            // of those that no run had begun before
+  std::unordered_set<std::uint32_t> begun_;  // of those that no run had begun before
+  std::unordered_map<std::string, std::string>
+      moved_;  // outputs that had been done, and what their inputs are called now
   std::unordered_map<std::uint32_t, Granted> grants_;  // by the first file
   std::size_t next_ = 0, bundle_size_ = 1;
   double cost_ = 0, timeout_ = 0;
@@ -484,6 +501,16 @@ std::optional<CorpusWork> asked_work(const Flags& flags) {
   return work;
 }
 
+/// Whether there are files of others where outputs go, which is printed.
+bool is_refused(const std::vector<std::uint32_t>& in_the_way, const Planned& planned, const Flags& flags) {
+  if (in_the_way.empty() || flags.overwrite) return false;
+  const auto first = fs::path(flags.output) / planned.plan.jobs[in_the_way[0]].output;
+  complain("corpus run", fmt::format("'{}' holds {} that no corpus run has made, such as '{}'; choose another folder, "
+                                     "or say --overwrite",
+                                     flags.output, counted(in_the_way.size(), "file"), first.string()));
+  return true;
+}
+
 }  // namespace
 
 int run_corpus_run(const Flags& flags) {
@@ -495,21 +522,17 @@ int run_corpus_run(const Flags& flags) {
   if (!planned) return code;
   // First what is there: another run writes down what it begins before anything is there.
   auto in_the_way = existing_outputs(*planned, flags.output);
-  DoneBefore before(*work, planned->plan);
-  std::erase_if(in_the_way, [&](std::uint32_t at) { return before.owns(planned->plan.jobs[at]); });
-  if (!in_the_way.empty() && !flags.overwrite) {
-    const auto first = fs::path(flags.output) / planned->plan.jobs[in_the_way[0]].output;
-    complain("corpus run",
-             fmt::format("'{}' holds {} that no corpus run has made, such as '{}'; choose another folder, "
-                         "or say --overwrite",
-                         flags.output, counted(in_the_way.size(), "file"), first.string()));
-    return usage;
-  }
+  std::error_code none;
+  const bool is_first = !fs::exists(corpus_folder(flags.output), none);
+  if (is_first && is_refused(in_the_way, *planned, flags)) return usage;
   auto journal = Journal::open(corpus_folder(flags.output), planned->shard, why);
   if (!journal) {
     complain("corpus run", why);
     return nothing;
   }
+  DoneBefore before(*work, planned->plan);
+  std::erase_if(in_the_way, [&](std::uint32_t at) { return before.has_begun(planned->plan.jobs[at]); });
+  if (is_refused(in_the_way, *planned, flags)) return usage;
   if (!write_run_recipe(*work, planned->plan)) return usage;
   return Run(flags, *work, *planned, std::move(before), std::move(*journal)).run();
 }
