@@ -153,7 +153,7 @@ std::string_view unread_encoding(std::string_view body) {
 std::unique_ptr<World> parse_gltf(std::string_view bytes, std::uint32_t base, const std::string& path,
                                   const ReadOptions& options, Diagnostics& diag) {
   auto world = std::make_unique<World>();
-  world->format = Format::gltf;
+  world->format = world->scene.format = Format::gltf;
   world->scene.sources = diag.shared_sources();
   world->scene.file = Span{base, 0};
   gltf_reader::parse(bytes, base, path, options.allowed, options.lookups, options.parse, world->scene, diag);

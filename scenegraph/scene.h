@@ -94,8 +94,10 @@ class Scene {
   Span where(NodeId n) const { return {nodes_[n.value].offset, 1}; }
   /// Relative urls of a node are relative to the file that its place lies in.
   void set_where(NodeId n, Span where) { nodes_[n.value].offset = where.begin; }
+  /// What a glTF file says becomes VRML97.
   Dialect dialect() const {
-    return format == Format::vrml97 ? Dialect::vrml97 : format == Format::vrml1 ? Dialect::vrml1 : Dialect::x3d;
+    if (format == Format::vrml1) return Dialect::vrml1;
+    return format == Format::vrml97 || format == Format::gltf ? Dialect::vrml97 : Dialect::x3d;
   }
 
   /// Fields that were written, in the order they were written; of nodes with very many of them in the order of their

@@ -82,9 +82,9 @@ std::string summary_json(const GltfSummary& s) {
       kinds("geometry_bytes", s.geometry_shares);
       const auto& q = s.quantization;
       if (q.tolerance > 0)
-        json.member("quantization", json_object("tolerance", q.tolerance, "position", q.position + q.rounding, "placement",
-                                                q.placement, "normal_degrees", q.normal * degrees, "texcoord",
-                                                q.texcoord, "color", q.color, "kept_as_floats", q.kept));
+        json.member("quantization", json_object("tolerance", q.tolerance, "position", q.position + q.rounding,
+                                                "placement", q.placement, "normal_degrees", q.normal * degrees,
+                                                "texcoord", q.texcoord, "color", q.color, "kept_as_floats", q.kept));
     });
   });
 }

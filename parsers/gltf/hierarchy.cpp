@@ -206,8 +206,9 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const TransformFields& plac
     auto own = shapes(n, place);
     below.insert(below.begin(), own.begin(), own.end());
   }
-  // A long text is written once, where the file describes itself.
-  if (type == nodes::WorldInfo) extras_.plain_fields(made, vrml97(c_.file.root()["asset"])["WorldInfo"]);
+  // A long text is written once, where the file describes itself: that of the first.
+  if (type == nodes::WorldInfo && !std::exchange(has_world_info_, true))
+    extras_.plain_fields(made, vrml97(c_.file.root()["asset"])["WorldInfo"]);
   std::deque<NodeId> rest(below.begin(), below.end());
   extras_.fields(made, fields, rest);
   if (auto slot = children_slot(c_.scene.type(made)); slot && !rest.empty()) {

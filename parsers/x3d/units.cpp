@@ -122,8 +122,8 @@ class Applying {
   /// version, is in radians.
   static bool says_nothing(const Value& v, const FieldDef& f) {
     if (f.x3d_from && equal_plain(v, f.x3d_default)) return true;
-    return !info(v.type).multiple && !v.number_span().empty() && v.number_span()[0] < 0 && !f.default_value.number_span().empty() &&
-           f.default_value.number_span()[0] < 0;
+    return !info(v.type).multiple && !v.number_span().empty() && v.number_span()[0] < 0 &&
+           !f.default_value.number_span().empty() && f.default_value.number_span()[0] < 0;
   }
 
   void node(NodeId n) {

@@ -422,6 +422,7 @@ std::vector<BakedPage> bake(const std::vector<Part>& parts, const Layout& layout
     integrators.emplace_back(world, points, how);
   }
   Checkpoint checkpoint(options.checkpoint, options.checkpoint.empty() ? 0 : work_key(parts, layout, world, options));
+  if (checkpoint.has_replaced_another()) ctx.diag.report(Diag::file_replaced, {}, options.checkpoint);
   Rounds rounds(integrators, checkpoint, options, n_tiles, ctx);
 
   // How many rounds a page takes is not known before; all else is one stretch of work.

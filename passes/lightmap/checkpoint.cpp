@@ -27,6 +27,14 @@ bool is_foreign(const std::string& path) {
   return in.gcount() > 0 && there != magic;
 }
 
+/// Whether a file is a checkpoint that begins otherwise and has tiles: hours of work, perhaps.
+bool is_of_another(const std::string& path, const std::string& head) {
+  std::ifstream in(path, std::ios::binary);
+  std::string there(head.size(), '\0');
+  if (!in.read(there.data(), static_cast<std::streamsize>(there.size())) || there == head) return false;
+  return in.peek() != std::ifstream::traits_type::eof();
+}
+
 }  // namespace
 
 std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_t hash) {
@@ -41,6 +49,12 @@ Checkpoint::Checkpoint(const std::string& path, std::uint64_t key) : path_(path)
     throw std::runtime_error("checkpoint=" + path + ": the file is not a checkpoint; choose another name");
   std::string head(magic);
   put(head, key);
+  if (is_of_another(path, head)) {
+    std::error_code fault;
+    std::filesystem::rename(path, path + ".bak", fault);
+    if (fault) throw std::system_error(fault, "checkpoint=" + path + " is that of another bake, and cannot be renamed");
+    has_replaced_another_ = true;
+  }
   std::uint64_t end = 0;
   {
     std::ifstream in(path, std::ios::binary);

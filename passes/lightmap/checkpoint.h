@@ -16,8 +16,8 @@ namespace wrlkit::bake {
 
 class Checkpoint {
  public:
-  /// Opens or makes the file; no path: nothing is kept. Tiles of a file with another key are forgotten: they are of
-  /// other work. Throws std::system_error when the file cannot be written, std::runtime_error when it is no checkpoint.
+  /// Opens or makes the file; no path: nothing is kept. One with another key, of other work, becomes FILE.bak. Throws
+  /// std::system_error when the file cannot be written, std::runtime_error when it is no checkpoint.
   Checkpoint(const std::string& path, std::uint64_t key);
 
   /// Deletes the file if it is a checkpoint.
@@ -26,6 +26,8 @@ class Checkpoint {
   /// What a tile was when it was saved; null when it was not. Good as long as this object lives.
   const std::vector<char>* find(std::uint64_t tile) const;
   std::size_t n_found() const { return found_.size(); }
+  /// There was one of other work.
+  bool has_replaced_another() const { return has_replaced_another_; }
   /// Any number of threads may save.
   void save(std::uint64_t tile, const std::vector<char>& bytes);
   /// Why tiles could not be saved, and nothing is kept since: the number of a system error. 0: all were.
@@ -37,6 +39,7 @@ class Checkpoint {
   std::string path_;
   std::ofstream out_;
   int error_ = 0;
+  bool has_replaced_another_ = false;
   std::mutex mutex_;
   std::unordered_map<std::uint64_t, std::vector<char>> found_;
 };

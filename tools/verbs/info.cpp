@@ -117,9 +117,9 @@ std::string info_text(const std::string& file, const Info& i) {
   out += unit_hint(b);
   out += fmt::format("  materials {}, textures {}, lights {}, viewpoints {}, LODs {}\n", i.materials, i.textures.size(),
                      i.lights, i.viewpoints, i.lods);
-  out += fmt::format("  named nodes {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}{}\n", i.names,
-                     i.protos, i.routes, i.scripts, i.inlines, i.animations,
-                     i.inlines > 0 ? " (of this file alone)" : "");
+  out +=
+      fmt::format("  named nodes {}, prototypes {}, routes {}, scripts {}, inlines {}, animations {}{}\n", i.names,
+                  i.protos, i.routes, i.scripts, i.inlines, i.animations, i.inlines > 0 ? " (of this file alone)" : "");
   std::vector<std::pair<std::uint64_t, std::string>> types;
   for (auto& [name, n] : i.nodes) types.emplace_back(n, name);
   std::ranges::sort(types,
