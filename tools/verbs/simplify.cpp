@@ -205,12 +205,12 @@ void print_table(const WorldSimplifyOptions& options, const WrittenWorlds& all) 
 }
 
 /// Triangles of a scene as `info` counts them.
-struct Triangles {
+struct TriangleCounts {
   std::size_t drawn = 0, unique = 0;
 };
 
 /// Nothing is reported, nor will it be when it is asked for again: for after the passes have run.
-Triangles triangles_of(Document& from, Scene scene, const LoadOptions& load = {}) {
+TriangleCounts counted_triangles(Document& from, Scene scene, const LoadOptions& load = {}) {
   Diagnostics unheard(from.diag().shared_sources());
   Statistics uncounted;
   Document silent({.scene = std::move(scene)}, PassContext{unheard, uncounted, from.resources()});
@@ -270,7 +270,7 @@ template <class World>
 Scene level_of(Session& s, const World& world, std::size_t point, WrittenWorlds& all, LostNames& lost) {
   Scene level = world.scene_at(point);
   lost.look_at(level);
-  const auto counted = triangles_of(s.document(), level);
+  const auto counted = counted_triangles(s.document(), level);
   all.points[point].n_drawn = counted.drawn;
   all.points[point].n_faces = counted.unique;
   return level;
@@ -440,7 +440,7 @@ int run_simplify(const Flags& flags) {
   if (flags.progressive) return write_progressive_file(s, options->collapse.criterion, names.base + names.ending);
   if (names.file.empty()) report_missing_parts(s.world().scene, s.resources(), s.diag());  // as save() does
   WrittenWorlds all;
-  const auto first = triangles_of(as_read, as_read.scene(), s.flags().load);
+  const auto first = counted_triangles(as_read, as_read.scene(), s.flags().load);
   all.n_drawn = first.drawn;
   all.n_faces = first.unique;
   s.progress().begin("simplifying", 0, "");
