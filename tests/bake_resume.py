@@ -82,6 +82,10 @@ def main():
             other.write_text(spot.read_text().replace(*change))
             if bake(wrlkit, folder / 'after_another', checkpoint, other, more)[0] != bake(wrlkit, folder / 'of_its_own', None, other, more)[0]:
                 faults.append(f'changed {change[0] or "directional"}: tiles of another bake were taken')
+            of_another = checkpoint.with_name(checkpoint.name + '.bak')
+            if not of_another.exists():
+                faults.append(f'changed {change[0] or "directional"}: the checkpoint of another bake is gone')
+            of_another.unlink(missing_ok=True)
         whole, rays = bake(wrlkit, folder / 'whole_pipes', world=pipes)
         if not interrupted(wrlkit, folder / 'part_pipes', checkpoint, 0, pipes, '.2'):
             sys.exit('bake-resume: the levels were done before they could be killed')
