@@ -99,7 +99,7 @@ struct SaveOptions {
   bool embed = false;             // pictures become part of what is written
   std::string files_folder = {};  // of copied files; empty: named after the output
   bool own_folder = false;        // pictures next to the output lie in a folder named after it, where no other's can be
-  bool keep_urls = false;         // what relative urls mean stands next to the output, too
+  std::string kept_below = {};    // a folder: what urls of files in it mean stands next to the output, too
   bool is_derived = false;        // the name of the output: replacing a file of other contents is reported
 
   void light_fields(auto&& f) {

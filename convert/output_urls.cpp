@@ -10,10 +10,10 @@ bool is_picture(UrlUse use) { return use == UrlUse::texture || use == UrlUse::pi
 }  // namespace
 
 OutputUrls::OutputUrls(const Writing& w, bool textures) : writing_(w), textures_(textures) {
-  const bool alone = w.sink || w.to.path == "-" || w.options.keep_urls || w.options.link;
+  const bool alone = w.sink || w.to.path == "-" || w.options.link;
   if (!alone)
     copies_.emplace(w.scene, *w.context.resources, w.to.path, w.options.files_folder,
-                    CopiedKinds{textures && !w.options.embed, !w.options.embed}, w.context.diag);
+                    CopiedKinds{textures && !w.options.embed, !w.options.embed}, w.options.kept_below, w.context.diag);
 }
 
 std::optional<std::string> OutputUrls::operator()(std::string_view url, Span where, UrlUse use) {

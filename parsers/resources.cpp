@@ -234,9 +234,9 @@ std::vector<FileLookup> FileResources::lookups() const {
   return out;
 }
 
-std::unique_ptr<Scene> FileResources::parse(std::string_view text, std::string name, const ParseLimits& limits,
+std::unique_ptr<Scene> FileResources::parse(std::string_view text, const std::string& name, const ParseLimits& limits,
                                             Diagnostics& diag) {
-  const auto world = parse_world(text, std::move(name), {.parse = limits}, diag);
+  const auto world = parse_world(text, name, {.parse = limits}, diag);
   return world ? std::make_unique<Scene>(std::move(world->scene)) : nullptr;
 }
 

@@ -44,7 +44,8 @@ class FileResources final : public Resources {
   std::shared_ptr<const PatchSet> patches(const std::string& path, Diagnostics&) override;
   UrlTarget target(std::string_view url, Span where, const Sources&) override;
   std::shared_ptr<const Scene> look_into(const std::string& path) override;
-  std::unique_ptr<Scene> parse(std::string_view text, std::string name, const ParseLimits&, Diagnostics&) override;
+  std::unique_ptr<Scene> parse(std::string_view text, const std::string& name, const ParseLimits&,
+                               Diagnostics&) override;
 
   /// How many files above the input's folder were found, and below which folder such files may lie.
   std::size_t files_above() const;

@@ -69,7 +69,7 @@ class Resources {
   virtual std::shared_ptr<const Scene> look_into(const std::string&) { return nullptr; }
 
   /// The scene that a text of a Script is; `name` is for messages. Null, reported, when it is none.
-  virtual std::unique_ptr<Scene> parse(std::string_view, std::string, const ParseLimits&, Diagnostics&) {
+  virtual std::unique_ptr<Scene> parse(std::string_view, const std::string&, const ParseLimits&, Diagnostics&) {
     return nullptr;
   }
 

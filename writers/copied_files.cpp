@@ -46,8 +46,8 @@ std::string url_of(const fs::path& path) {
 }  // namespace
 
 CopiedFiles::CopiedFiles(const Scene& scene, Resources& resources, const std::string& output, std::string folder,
-                         CopiedKinds kinds, Diagnostics& diag)
-    : scene_(scene), resources_(resources), folder_(std::move(folder)), kinds_(kinds), diag_(diag) {
+                         CopiedKinds kinds, const std::string& kept, Diagnostics& diag)
+    : scene_(scene), resources_(resources), folder_(std::move(folder)), kinds_(kinds), diag_(diag), kept_(kept) {
   if (folder_.empty()) folder_ = stem_of(output).filename().string() + "_files";
   std::error_code fault;
   here_ = fs::weakly_canonical(fs::absolute(output, fault).parent_path(), fault);
@@ -74,7 +74,9 @@ bool CopiedFiles::is_copied(UrlUse use) const {
   return use != UrlUse::none && use != UrlUse::link;
 }
 
-bool CopiedFiles::is_here(const std::string& path) const { return is_below(path, here_); }
+bool CopiedFiles::is_here(const std::string& path) const {
+  return is_below(path, here_) || (!kept_.empty() && is_below(path, kept_));
+}
 
 void CopiedFiles::find_files(std::span<const std::string_view> urls, Span where, UrlUse use) {
   if (!is_copied(use)) return;

@@ -27,11 +27,11 @@ struct CopiedKinds {
 class CopiedFiles {
  public:
   /// Looks for the files of the scene that is written to `output`; nothing is written yet. The folder is named after
-  /// the output unless a name is given. Where textures are copied, a list of urls that leads
-  /// only to where nothing may be read is reported.
-  /// O(nodes), and parses scenes that come along.
+  /// the output unless a name is given. Files below `kept`, if that is given, count as next to the output. Where
+  /// textures are copied, a list of urls that leads only to where nothing may be read is reported. O(nodes), and parses
+  /// scenes that come along.
   CopiedFiles(const Scene& scene, Resources& resources, const std::string& output, std::string folder,
-              CopiedKinds kinds, Diagnostics& diag);
+              CopiedKinds kinds, const std::string& kept, Diagnostics& diag);
   /// Copies of a scene that was not written are removed.
   ~CopiedFiles();
   CopiedFiles(const CopiedFiles&) = delete;
@@ -58,7 +58,7 @@ class CopiedFiles {
   std::string folder_;
   CopiedKinds kinds_;
   Diagnostics& diag_;
-  std::filesystem::path here_;                           // canonical folder of the output
+  std::filesystem::path here_, kept_;                    // canonical; here_: the folder of the output
   std::set<std::string> fixed_;                          // files that scenes which come along are or refer to
   std::map<std::string, std::filesystem::path> places_;  // of the copy of each file, below here_
   std::map<std::uintmax_t, std::vector<std::string>> by_size_;

@@ -363,9 +363,9 @@ bool fits(std::string_view name, std::string_view pattern) {
 
 void report_unused(const NamedDensities& densities, const Scene& scene, Diagnostics& diag) {
   const auto nodes = reachable(scene, scene.main);
-  for (const auto& [pattern, factor] : densities.all)
-    if (std::ranges::none_of(nodes, [&](NodeId n) { return fits(scene.name(n), pattern); }))
-      diag.report(Diag::no_name_matches, {}, "densities of lightmap", pattern);
+  for (const auto& one : densities.all)
+    if (std::ranges::none_of(nodes, [&](NodeId n) { return fits(scene.name(n), one.first); }))
+      diag.report(Diag::no_name_matches, {}, "densities of lightmap", one.first);
 }
 
 }  // namespace

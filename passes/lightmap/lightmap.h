@@ -68,8 +68,8 @@ Every surface that a browser would show at the start is lit.
 - Left unchanged: UnlitMaterial, lines, points, and children that a Switch does not show.
 - With `patches`, each Shape gets a picture of its own that contains its flat polygons. Of the other options, only
   `smooth` and `format` apply. Only the first level of detail of a Shape is lit.
-- Contents of Inlines and prototypes are not lit: run `expand` first. Shapes whose geometry events change, or contains
-  unknown nodes, are not lit either. Both are reported (not-lit).
+- What Inlines and prototypes show is lit: `expand` runs first. Shapes whose geometry events change, or contains unknown
+  nodes, are not lit. That is reported (not-lit).
 - There are at most 2^28 texels in total, and all texels of a Shape are on one page. A high density may therefore be out
   of reach (density-limit).
 - `lamps=inverse-square` is for scenes that are dark because radii are small, or evenly lit because attenuations are

@@ -163,9 +163,10 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     flags.output = target;
     flags.load.allow_paths = allowed_folders(work, plan, job);
     flags.save.own_folder = true;
-    flags.save.keep_urls = work.text && job.input.mirrored;
+    if (work.text && job.input.mirrored)
+      flags.save.kept_below = fs::weakly_canonical(plan.roots[job.input.root], none).string();
     ConversionExtras extras;
-    if (flags.save.keep_urls)
+    if (!flags.save.kept_below.empty())
       extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); };
     extras.may_replace = may_replace;
     extras.take = [&](const std::string& path) {

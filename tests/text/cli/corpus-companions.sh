@@ -6,6 +6,7 @@ picture() { wrlkit render -q "$1.wrl" "$2" --width "$3" --height 8; }
 printf '[[pass]]\nname = "weld"\n' > rec.toml
 printf '#VRML V2.0 utf8\nBackground { skyColor 1 0 0 } Shape { geometry Sphere { } }\n' > red.wrl
 printf '#VRML V2.0 utf8\nBackground { skyColor 0 0 1 } Shape { geometry Box { } }\n' > blue.wrl
+box() { printf '#VRML V2.0 utf8\nShape { geometry Box { } }\n' > "$1"; }
 run() { wrlkit corpus run rec.toml "$@" 2>&1 | grep -v "^  \|^lost" | sed 's/ in .*//'; }
 
 echo '-- of others'
@@ -71,6 +72,20 @@ shape none.png > names/$(echo -e 'lat\xe8.wrl')
 run names -o names_out
 run names -o names_out
 wrlkit corpus report names_out --looks 0 --json | tr ',' '\n' | grep lat
+
+echo '-- what lies above the inputs'
+mkdir -p above/in/tex above/up
+picture red above/up/q.png 8
+picture blue above/in/tex/p.png 8
+(shape ../up/q.png; shape tex/p.png | tail -1; echo 'Inline { url "../up/part.wrl" }') > above/in/a.wrl
+box above/up/part.wrl
+run above/in -o above/o1 --format wrl
+run above/in -o above/o2 --format wrl --allow-path above/up
+grep -ho 'url.*' above/o1/a.wrl above/o2/a.wrl
+wrlkit check above/o2/a.wrl --allow-path above/o2 | tail -1
+echo '-- a glob'
+run 'above/in/*.wrl' -o above/o3 --format wrl --allow-path above/up
+find above/o2 above/o3 -type f -not -path '*.wrlkit*' | sort
 
 echo '-- a folder of inputs below'
 mkdir -p p/units
