@@ -11,6 +11,7 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/ways.h"
 #include "scenegraph/transform.h"
+#include "scenegraph/urls.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -37,9 +38,6 @@ void add_value(const Value& v, std::string& out) {
     for (const auto text : v.text_span()) (out += ' ') += text;
 }
 
-/// Conversions may have to put files elsewhere.
-bool is_url(const FieldDef& f) { return f.name == "url" || f.name.ends_with("Url"); }
-
 bool is_animation(const Scene& scene, NodeId n) {
   return scene.is(n, nodes::X3DInterpolatorNode) || scene.is(n, nodes::X3DTimeDependentNode);
 }
@@ -52,13 +50,13 @@ bool is_other(const Scene& scene, NodeId n) {
   return std::ranges::any_of(kinds, [&](BaseSet kind) { return scene.is(n, kind); });
 }
 
-/// Its type, and what it says that is not the default.
-std::string said_by(const Scene& scene, NodeId n) {
+/// Its type, and what it says that is not the default; without urls, for conversions may have to put files elsewhere.
+std::string said_by(const Scene& scene, const UrlFields& urls, NodeId n) {
   const auto& type = scene.type(n);
   std::string out(type.name);
   for (std::uint16_t slot = 0; slot < type.fields.size(); ++slot) {
     const Value* v = scene.find(n, slot);
-    if (!v || v->is || is_url(type.fields[slot])) continue;
+    if (!v || v->is || urls.use(scene.type_id(n), slot) != UrlUse::none) continue;
     std::string own, usual;
     add_value(*v, own);
     add_value(type.fields[slot].default_value, usual);
@@ -106,11 +104,12 @@ BehaviourCensus count_behaviour(const Scene& scene) {
   for (const auto& r : scene.main.routes)
     ++out.routes[fmt::format("{}.{} TO {}.{}", scene.type(r.from).name, r.event_out, scene.type(r.to).name,
                              r.event_in)];
+  const UrlFields urls(scene);
   for (const NodeId n : reachable(scene, scene.main))
     if (is_animation(scene, n))
-      ++out.animations[said_by(scene, n)];
+      ++out.animations[said_by(scene, urls, n)];
     else if (is_other(scene, n))
-      ++out.others[said_by(scene, n)];
+      ++out.others[said_by(scene, urls, n)];
   Ways<Matrix> ways(scene);
   ways.push(scene.main.roots, {});
   while (const auto step = ways.next()) {

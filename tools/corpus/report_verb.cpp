@@ -104,10 +104,9 @@ int run_corpus_report(const Flags& flags) {
                report.removed == 1 ? "input is" : "inputs are");
   if (const auto n = report.n_changed(); n > 0) {
     const auto first = std::ranges::find(report.rows, true, &ReportRow::is_changed);
-    complain("corpus report",
-             fmt::format("{} gone, or not as large as {} made: '{}'{}",
-                         n == 1 ? "1 output is" : fmt::format("{} outputs are", n), n == 1 ? "it was" : "they were",
-                         (fs::path(out) / first->output).string(), n > 1 ? ", ..." : ""));
+    complain("corpus report", fmt::format("{} gone, or of another size than a run made: '{}'{}",
+                                          counted(n, "output") + (n == 1 ? " is" : " are"),
+                                          (fs::path(out) / first->output).string(), n > 1 ? ", ..." : ""));
   }
   if (report.damaged > 0)
     complain("corpus report",

@@ -1,9 +1,8 @@
-// wrlkit corpus run and corpus plan. One process plans, starts workers and writes the journal; each file is done by a
+// wrlkit corpus run. One process plans, starts workers and writes the journal; each file is done by a
 // worker (workers.h), which writes its output whole or not at all.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -23,7 +22,8 @@
 #include "tools/cli/documents.h"
 #include "tools/cli/print_diagnostics.h"
 #include "tools/cli/session.h"
-#include "tools/corpus/conversion.h"
+#include "tools/corpus/planned.h"
+#include "tools/corpus/shell_word.h"
 #include "tools/corpus/status.h"
 #include "tools/corpus/workers.h"
 
@@ -37,127 +37,11 @@ std::string host_name() {
   return gethostname(name, sizeof name - 1) == 0 ? name : "localhost";
 }
 
-/// As a shell reads it, on one line whatever is in it.
-std::string shell_word(const std::string& word) {
-  const auto plain = [](unsigned char c) {
-    return std::isalnum(c) || c >= 0x80 ||
-           std::string_view("/._-+:,=@%").find(static_cast<char>(c)) != std::string_view::npos;
-  };
-  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-  std::string out = "$'";
-  for (const char c : word) {
-    if (c == '\'' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < ' ' || c == 0x7f)
-      out += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
-    else
-      out += c;
-  }
-  return out + '\'';
-}
-
-/// A name in a table: as a shell reads it, where it would break the line or the column.
-std::string in_one_field(const std::string& name) {
-  const auto breaks = [](unsigned char c) { return c < ' ' || c == 0x7f; };
-  return std::ranges::any_of(name, breaks) ? shell_word(name) : name;
-}
-
 /// "SIGABRT (Aborted)".
 std::string signal_text(int signal) {
   const char* name = sigabbrev_np(signal);
   return fmt::format("{} ({})", name ? fmt::format("SIG{}", name) : fmt::format("signal {}", signal),
                      strsignal(signal));
-}
-
-/// Where a word means all that lies below: a folder, or a glob with "**". Nothing where it means files.
-std::optional<fs::path> folder_below(const std::string& word) {
-  std::error_code none;
-  if (fs::is_directory(word, none)) return word;
-  if (word.find("**") == word.npos) return std::nullopt;
-  const auto front = fs::path(word.substr(0, word.find_first_of("*?["))).parent_path();
-  return front.empty() ? "." : front;
-}
-
-/// Whether the outputs would be written among the inputs: into one of their folders, or into one below with scenes
-/// that no run has made.
-bool is_input_folder(const CorpusPlan& plan, const std::vector<std::string>& words, const std::string& out) {
-  std::error_code none;
-  const auto there = fs::weakly_canonical(out, none);
-  if (std::ranges::any_of(plan.roots, [&](const auto& root) { return fs::weakly_canonical(root, none) == there; }))
-    return true;
-  const bool is_below = std::ranges::any_of(words, [&](const std::string& word) {
-    const auto folder = folder_below(word);
-    return folder && !there.lexically_relative(fs::weakly_canonical(*folder, none)).native().starts_with("..");
-  });
-  if (!is_below || !fs::is_directory(there, none) || fs::exists(corpus_folder(out), none)) return false;
-  std::string unsaid;
-  const auto inputs = gather_inputs({out}, {}, unsaid);
-  return inputs && !inputs->files.empty();
-}
-
-struct Planned {
-  CorpusPlan plan;
-  std::vector<std::string> left_out;
-  Shard shard;
-  std::vector<std::uint32_t> todo;  // the jobs of the shard
-};
-
-/// `code`: of what is wrong, when something is, which was printed.
-std::optional<Planned> plan_of(std::string_view verb, const Flags& flags, bool assets, int& code) {
-  code = usage;
-  std::string why;
-  Planned p;
-  const auto fail = [&] {
-    complain(verb, why);
-    return std::nullopt;
-  };
-  if (flags.output == "-") {
-    why = "-o: a folder is needed; standard output is none";
-    return fail();
-  }
-  if (std::error_code none; !flags.base.empty() && !fs::is_directory(flags.base, none)) {
-    why = "--base: there is no folder '" + flags.base + "'";
-    return fail();
-  }
-  if (!flags.shard.empty()) {
-    const auto shard = parse_shard(flags.shard, why);
-    if (!shard) return fail();
-    p.shard = *shard;
-  }
-  auto inputs = gather_inputs(flags.inputs,
-                              {.include = flags.include,
-                               .exclude = flags.exclude,
-                               .base = flags.base,
-                               .output = flags.output,
-                               .assets = assets},
-                              why);
-  if (!inputs) {
-    code = nothing;
-    return fail();
-  }
-  p.left_out = std::move(inputs->left_out);
-  print_left_out(verb, p.left_out, inputs->passed_over);
-  auto plan = plan_corpus(std::move(*inputs), flags.format, p.shard.count, why);
-  if (!plan) return fail();
-  p.plan = std::move(*plan);
-  for (std::uint32_t i = 0; i < p.plan.jobs.size(); ++i)
-    if (flags.shard.empty() || p.plan.jobs[i].shard == p.shard.index) p.todo.push_back(i);
-  if (is_input_folder(p.plan, flags.inputs, flags.output)) {
-    why = "'" + flags.output + "' is a folder of inputs; the outputs need one of their own";
-    return fail();
-  }
-  return p;
-}
-
-/// The jobs of the shard whose outputs are there.
-std::vector<std::uint32_t> existing_outputs(const Planned& p, const std::string& folder) {
-  std::error_code none;
-  std::vector<std::uint32_t> out;
-  if (!fs::exists(folder, none)) return out;
-  std::ranges::copy_if(p.todo, std::back_inserter(out),
-                       [&](std::uint32_t at) { return fs::exists(fs::path(folder) / p.plan.jobs[at].output, none); });
-  return out;
 }
 
 class Run {
@@ -170,8 +54,8 @@ class Run {
         journal_(std::move(journal)),
         before_(std::move(before)),
         host_(host_name()) {
-    todo_ = planned.todo;
-    for (const auto i : todo_) cost_ += plan_.jobs[i].cost;
+    ours_ = planned.ours;
+    for (const auto i : ours_) cost_ += plan_.jobs[i].cost;
     memory_ = flags.memory.empty() ? free_memory() / 10 * 8 : size_of(flags.memory);
     // What a pass in Python leaves behind in its process is for the next file to find.
     const int usual = work.flags.python.empty() ? 16 : 1;
@@ -181,7 +65,7 @@ class Run {
   }
 
   int run() {
-    CorpusStatus status(todo_.size(), cost_, flags_.quiet);
+    CorpusStatus status(ours_.size(), cost_, flags_.quiet);
     status_ = &status;
     if (!flags_.joblog.empty() && !open_joblog()) return usage;
     if (!flags_.quiet)
@@ -190,7 +74,7 @@ class Run {
                    "{}: several inputs would become '{}'; this one keeps its ending in the name of the output\n", input,
                    output);
     while (good_ && !Workers::interrupted() &&
-           (next_ < todo_.size() || !bundle_.empty() || workers_.running() || !alone_.empty())) {
+           (next_ < ours_.size() || !bundle_.empty() || workers_.running() || !alone_.empty())) {
       start_some();
       // Those that need all of the memory wait until everybody else is done.
       if (all_begun() && !workers_.running() && !alone_.empty() && start({alone_.back()}, memory_)) alone_.pop_back();
@@ -230,7 +114,7 @@ class Run {
     return std::min(memory_, std::max(memory_ / jobs_, 2 * likely));
   }
 
-  bool all_begun() const { return next_ == todo_.size() && bundle_.empty(); }
+  bool all_begun() const { return next_ == ours_.size() && bundle_.empty(); }
   /// Whether its worker may do others, too.
   bool may_share(std::uint32_t at) const {
     return bundle_size_ > 1 && plan_.jobs[at].cost < small_cost && !own_process_.contains(at);
@@ -238,9 +122,9 @@ class Run {
 
   /// Takes the next file that is not done, and small ones behind it, but leaves some to other workers.
   void fill_bundle() {
-    const auto most = std::clamp<std::size_t>((todo_.size() - next_) / (2 * jobs_), 1, bundle_size_);
-    while (next_ < todo_.size() && bundle_.size() < most) {
-      const auto at = todo_[next_];
+    const auto most = std::clamp<std::size_t>((ours_.size() - next_) / (2 * jobs_), 1, bundle_size_);
+    while (next_ < ours_.size() && bundle_.size() < most) {
+      const auto at = ours_[next_];
       if (!bundle_.empty() && !(may_share(bundle_.back()) && may_share(at))) return;
       ++next_;
       if (!was_done(at)) bundle_.push_back(at);
@@ -333,7 +217,7 @@ class Run {
         take(at, std::move(*line));
       } else if (!alone) {  // whichever of them has ended the worker: the next one will say
         own_process_.insert(at);
-        todo_.push_back(at);
+        ours_.push_back(at);
       } else if (!end.timed_out && (end.exit_code == Workers::no_memory || end.signal == SIGKILL) &&
                  work.memory < memory_) {
         alone_.push_back(at);
@@ -452,7 +336,7 @@ class Run {
   Journal journal_;
   DoneBefore before_;
   std::string host_;
-  std::vector<std::uint32_t> todo_, bundle_, alone_;  // bundle_: taken from todo_, not begun
+  std::vector<std::uint32_t> ours_, bundle_, alone_;  // bundle_: taken from ours_, not begun
   std::unordered_set<std::uint32_t> own_process_;
   std::unordered_set<std::uint32_t> begun_;  // of those that no run had begun before
   std::unordered_map<std::string, std::string>
@@ -473,43 +357,6 @@ class Run {
   std::string journal_fault_;
   Workers workers_;
 };
-
-/// False when the report cannot be written, which was printed.
-bool give_plan(const Planned& p, const Flags& flags) {
-  std::string json_text;
-  JsonOut json(json_text);
-  json.begin_array();
-  if (!flags.json) fmt::print("shard\tseconds\tbytes\tinput\toutput\n");
-  for (const auto& job : p.plan.jobs) {
-    if (!flags.shard.empty() && job.shard != p.shard.index) continue;
-    const auto output = (fs::path(flags.output) / job.output).string();
-    json.object("shard", job.shard + 1, "seconds", job.cost, "bytes", job.input.bytes, "input", job.input.path,
-                "output", output);
-    if (!flags.json)
-      fmt::print("{}/{}\t{:.3f}\t{}\t{}\t{}\n", job.shard + 1, p.shard.count, job.cost, job.input.bytes,
-                 in_one_field(job.input.path), in_one_field(output));
-  }
-  json.end_array();
-  return give_document(flags, json_text);
-}
-
-/// What the flags ask for; what is wrong with them is printed.
-std::optional<CorpusWork> asked_work(const Flags& flags) {
-  std::string why;
-  auto work = corpus_work(flags, why);
-  if (!work) fmt::print(stderr, "{}", why);
-  return work;
-}
-
-/// Whether there are files of others where outputs go, which is printed.
-bool is_refused(const std::vector<std::uint32_t>& in_the_way, const Planned& planned, const Flags& flags) {
-  if (in_the_way.empty() || flags.overwrite) return false;
-  const auto first = fs::path(flags.output) / planned.plan.jobs[in_the_way[0]].output;
-  complain("corpus run", fmt::format("'{}' holds {} that no corpus run has made, such as '{}'; choose another folder, "
-                                     "or say --overwrite",
-                                     flags.output, counted(in_the_way.size(), "file"), first.string()));
-  return true;
-}
 
 }  // namespace
 
@@ -535,16 +382,6 @@ int run_corpus_run(const Flags& flags) {
   if (is_refused(in_the_way, *planned, flags)) return usage;
   if (!write_run_recipe(*work, planned->plan)) return usage;
   return Run(flags, *work, *planned, std::move(before), std::move(*journal)).run();
-}
-
-int run_corpus_plan(const Flags& flags) {
-  const auto work = asked_work(flags);
-  if (!work) return usage;
-  int code = usage;
-  const auto planned = plan_of("corpus plan", flags, work->text, code);
-  if (!planned) return code;
-  if (!give_plan(*planned, flags)) return nothing;
-  return planned->left_out.empty() ? done : partly;
 }
 
 }  // namespace wrlkit

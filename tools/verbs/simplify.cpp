@@ -242,7 +242,6 @@ struct Names {
 /// Names that levels do not have: those of the geometry of parts that were left out.
 class LostNames {
  public:
-  LostNames() = default;
   explicit LostNames(const Scene& scene) : all_(names_of(scene)) {}
   void look_at(const Scene& level) {
     const auto there = names_of(level);
@@ -267,50 +266,48 @@ class LostNames {
 
 /// The scene of a point, whose triangles are counted.
 template <class World>
-Scene level_of(Session& s, const World& world, std::size_t point, WrittenWorlds& all, LostNames& lost) {
+Scene level_of(Session& s, const World& world, std::size_t point, WrittenWorlds& all) {
   Scene level = world.scene_at(point);
-  lost.look_at(level);
   const auto counted = counted_triangles(s.document(), level);
   all.points[point].n_drawn = counted.drawn;
   all.points[point].n_faces = counted.unique;
   return level;
 }
 
-/// One point is the scene itself, several are levels of detail. The format is that of the file's name.
+/// One point is the scene itself, several are levels of detail, of which the first has all names. The format is that
+/// of the file's name.
 template <class World>
-bool write_one_file(Session& s, const World& world, const std::string& file, WrittenWorlds& all, LostNames& lost) {
-  std::optional<Scene> only;
-  for (std::size_t i = 0; i < all.points.size(); ++i) {
-    only = level_of(s, world, i, all, lost);
-    if (all.points.size() > 1) only.reset();
+bool write_one_file(Session& s, const World& world, const std::string& file, WrittenWorlds& all) {
+  Document document({.scene = {}}, s.context());
+  for (std::size_t i = 0; i < all.points.size(); ++i) document.scene() = level_of(s, world, i, all);
+  if (all.points.size() == 1) {
+    all.points[0].file = file;
+    LostNames lost(s.world().scene);
+    lost.look_at(document.scene());
+    lost.report(s.diag());
+  } else {
+    all.lod_file = file;
+    document.scene() = world.scene_with_levels();
   }
-  (only ? all.points[0].file : all.lod_file) = file;
-  if (!only) lost = {};  // the first level has all names
-  Document document({.scene = only ? std::move(*only) : world.scene_with_levels()}, s.context());
   return bool(save(std::move(document), file, s.flags().save));
-}
-
-template <class World>
-bool write_files(Session& s, const World& world, const Names& names, WrittenWorlds& all, LostNames& lost) {
-  const auto folder = std::filesystem::path(names.base).filename().string() + "_files";
-  for (std::size_t i = 0; i < all.points.size(); ++i) {
-    const Scene level = level_of(s, world, i, all, lost);
-    auto& p = all.points[i];
-    p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
-    if (!write_world(s, p.file, level, folder)) return false;
-  }
-  all.lod_file = names.base + "_lod" + names.ending;
-  return write_world(s, all.lod_file, world.scene_with_levels(), folder);
 }
 
 template <class World>
 bool write_worlds(Session& s, const World& world, const Names& names, WrittenWorlds& all) {
   add_points(world, all);
+  if (!names.file.empty()) return write_one_file(s, world, names.file, all);
+  const auto folder = std::filesystem::path(names.base).filename().string() + "_files";
   LostNames lost(s.world().scene);
-  const bool is_written =
-      names.file.empty() ? write_files(s, world, names, all, lost) : write_one_file(s, world, names.file, all, lost);
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    const Scene level = level_of(s, world, i, all);
+    lost.look_at(level);
+    auto& p = all.points[i];
+    p.file = names.base + '_' + std::to_string(p.n_drawn) + names.ending;
+    if (!write_world(s, p.file, level, folder)) return false;
+  }
   lost.report(s.diag());
-  return is_written;
+  all.lod_file = names.base + "_lod" + names.ending;
+  return write_world(s, all.lod_file, world.scene_with_levels(), folder);
 }
 
 /// Instances of prototypes replaced by their bodies; nothing when there are none, or too many.
