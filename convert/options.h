@@ -16,6 +16,7 @@
 #include "passes/combine_lightmap/lightmap_size.h"
 #include "passes/pipeline/length_option.h"
 #include "passes/place/place.h"
+#include "writers/copied_files.h"
 #include "writers/gltf/gltf.h"
 
 namespace wrlkit {
@@ -99,8 +100,8 @@ struct SaveOptions {
   bool embed = false;             // pictures become part of what is written
   std::string files_folder = {};  // of copied files; empty: named after the output
   bool own_folder = false;        // pictures next to the output lie in a folder named after it, where no other's can be
-  std::string kept_below = {};    // a folder: what urls of files in it mean stands next to the output, too
-  bool is_derived = false;        // the name of the output: replacing a file of other contents is reported
+  MirroredFiles is_mirrored = {};  // files that stand to the output as they do to the input: their urls stay
+  bool is_derived = false;         // the name of the output: replacing a file of other contents is reported
 
   void light_fields(auto&& f) {
     f("lightmap-as", lightmap_as, "baked light in glTF");

@@ -13,7 +13,7 @@ OutputUrls::OutputUrls(const Writing& w, bool textures) : writing_(w), textures_
   const bool alone = w.sink || w.to.path == "-" || w.options.link;
   if (!alone)
     copies_.emplace(w.scene, *w.context.resources, w.to.path, w.options.files_folder,
-                    CopiedKinds{textures && !w.options.embed, !w.options.embed}, w.options.kept_below, w.context.diag);
+                    CopiedKinds{textures && !w.options.embed, !w.options.embed}, w.options.is_mirrored, w.context.diag);
 }
 
 std::optional<std::string> OutputUrls::operator()(std::string_view url, Span where, UrlUse use) {

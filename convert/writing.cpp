@@ -61,7 +61,7 @@ bool write_text(const Writing& w, TextWriter write) {
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   if (path != "-" && !w.options.dump && w.to.format->parsed == Format::vrml97) report_inlines(w);
   MadeFiles made(w.scene, *w.context.resources, path, w.options.own_folder, diag);
-  options.file = path == "-" || !w.options.kept_below.empty() ? "" : path;
+  options.file = path == "-" || w.options.is_mirrored ? "" : path;
   options.place = [&](std::string_view url) { return made.place(url); };
   OutputUrls urls(w, true);
   options.copy = std::ref(urls);

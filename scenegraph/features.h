@@ -13,7 +13,7 @@ namespace wrlkit {
 
 /// One part after the other, in the order of the faces, polylines or points of the geometry.
 struct Features {
-  std::span<const std::string_view> names;  // DEF names from the root, with '/' between them
+  std::span<const std::string_view> names;  // paths of DEF names from the root (name_path.h)
   std::span<const std::int32_t> faces;      // how many are of each
 
   std::size_t n_faces() const;

@@ -46,8 +46,13 @@ std::string url_of(const fs::path& path) {
 }  // namespace
 
 CopiedFiles::CopiedFiles(const Scene& scene, Resources& resources, const std::string& output, std::string folder,
-                         CopiedKinds kinds, const std::string& kept, Diagnostics& diag)
-    : scene_(scene), resources_(resources), folder_(std::move(folder)), kinds_(kinds), diag_(diag), kept_(kept) {
+                         CopiedKinds kinds, MirroredFiles is_mirrored, Diagnostics& diag)
+    : scene_(scene),
+      resources_(resources),
+      folder_(std::move(folder)),
+      kinds_(kinds),
+      diag_(diag),
+      is_mirrored_(std::move(is_mirrored)) {
   if (folder_.empty()) folder_ = stem_of(output).filename().string() + "_files";
   std::error_code fault;
   here_ = fs::weakly_canonical(fs::absolute(output, fault).parent_path(), fault);
@@ -75,7 +80,7 @@ bool CopiedFiles::is_copied(UrlUse use) const {
 }
 
 bool CopiedFiles::is_here(const std::string& path) const {
-  return is_below(path, here_) || (!kept_.empty() && is_below(path, kept_));
+  return is_below(path, here_) || (is_mirrored_ && is_mirrored_(path));
 }
 
 void CopiedFiles::find_files(std::span<const std::string_view> urls, Span where, UrlUse use) {

@@ -2,6 +2,7 @@
 // to it. out/room.wrl has out/room_files/brick.png.
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,17 +22,20 @@ struct CopiedKinds {
   bool pictures = true;  // others
 };
 
+/// Whether a file, by its canonical path, stands to the output as it does to the input.
+using MirroredFiles = std::function<bool(const std::string& path)>;
+
 /// A scene that comes along brings the files that it refers to, and they stand to it as before. Only files that may be
 /// read are copied, each once; of files with equal contents that only the written scene refers to, one is copied. What
 /// an Anchor leads to stays where it is.
 class CopiedFiles {
  public:
   /// Looks for the files of the scene that is written to `output`; nothing is written yet. The folder is named after
-  /// the output unless a name is given. Files below `kept`, if that is given, count as next to the output. Where
+  /// the output unless a name is given. What `is_mirrored`, if that is given, counts as next to the output. Where
   /// textures are copied, a list of urls that leads only to where nothing may be read is reported. O(nodes), and parses
   /// scenes that come along.
   CopiedFiles(const Scene& scene, Resources& resources, const std::string& output, std::string folder,
-              CopiedKinds kinds, const std::string& kept, Diagnostics& diag);
+              CopiedKinds kinds, MirroredFiles is_mirrored, Diagnostics& diag);
   /// Copies of a scene that was not written are removed.
   ~CopiedFiles();
   CopiedFiles(const CopiedFiles&) = delete;
@@ -58,7 +62,8 @@ class CopiedFiles {
   std::string folder_;
   CopiedKinds kinds_;
   Diagnostics& diag_;
-  std::filesystem::path here_, kept_;                    // canonical; here_: the folder of the output
+  std::filesystem::path here_;  // canonical: the folder of the output
+  MirroredFiles is_mirrored_;
   std::set<std::string> fixed_;                          // files that scenes which come along are or refer to
   std::map<std::string, std::filesystem::path> places_;  // of the copy of each file, below here_
   std::map<std::uintmax_t, std::vector<std::string>> by_size_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenegraph/places/name_path.h"
+
 namespace wrlkit::gltf_reader {
 namespace {
 
@@ -77,7 +79,7 @@ void PartRows::read_paths(Json list) {
     const bool whole = static_cast<std::size_t>(std::ranges::count(path, '/')) > most_groups;
     for (;;) {
       const auto slash = whole ? path.npos : path.rfind('/');
-      rows_[row].name = path.substr(slash == path.npos ? 0 : slash + 1);
+      rows_[row].name = name_of_step(path.substr(slash == path.npos ? 0 : slash + 1));
       if (slash == path.npos) break;
       path = path.substr(0, slash);
       const auto [at, is_new] = groups.try_emplace(path, static_cast<std::uint32_t>(rows_.size()));

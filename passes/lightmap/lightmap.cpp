@@ -17,6 +17,7 @@
 #include "passes/lightmap/bake.h"
 #include "passes/lightmap/bake_progress.h"
 #include "passes/lightmap/checkpoint.h"
+#include "passes/lightmap/driven_lights.h"
 #include "passes/lightmap/finest_light.h"
 #include "passes/lightmap/from_patches.h"
 #include "passes/lightmap/info_line.h"
@@ -272,7 +273,11 @@ Outcome bake_view(Scene& scene, Views& views, PassContext& ctx) {
   levels.own_what_is_lit();
   Meshes meshes(scene, options.faces, ctx);
   light::LightWorld world(scene, std::ref(meshes), ctx.resources, light_options(options, levels), ctx.diag);
-  if (!options.patches.empty()) return take_patches(scene, world, options, ctx);
+  if (!options.patches.empty()) {
+    if (options.unlit == UnlitSurfaces::bake)
+      unlit.report_kept(world, "patches light only Shapes with a Material", ctx.diag);
+    return take_patches(scene, world, options, ctx);
+  }
   if (!levels.depth()) levels.find_shades(world);
   unlit.look_at(world, ctx.diag);
   auto parts = find_parts(scene, world, unlit, options.faces, ctx);
@@ -329,6 +334,7 @@ void report_not_lit(const Scene& scene, Diagnostics& diag) {
 Outcome bake_into(Scene& scene, const LightmapOptions& options, PassContext& ctx) {
   const auto start = Clock::now();
   report_not_lit(scene, ctx.diag);
+  report_driven_lights(scene, ctx.diag);
   if (const auto n = foreign_surfaces(scene)) ctx.diag.report(Diag::not_lowered, {}, n);
   const auto n_copies = own_shapes(scene, ctx.diag, options.patches.empty() ? OfLod::all : OfLod::first);
   const std::size_t n_views = ctx.monitor || options.budget.seconds > 0 ? Levels::count(scene) : 1;

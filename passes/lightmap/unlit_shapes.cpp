@@ -51,10 +51,7 @@ bool UnlitShapes::is_one(NodeId shape, NodeId appearance) const {
   return is_picture && !is_driven(appearance) && !is_driven(texture);
 }
 
-void UnlitShapes::look_at(const light::LightWorld& world, Diagnostics& diag) {
-  if (decided_) return;
-  decided_ = true;
-  if (!wanted_) return;
+UnlitShapes::Found UnlitShapes::find(const light::LightWorld& world) const {
   std::unordered_set<std::uint32_t> shapes;
   NodeId first;
   const auto& uses = world.stage().uses;
@@ -63,13 +60,24 @@ void UnlitShapes::look_at(const light::LightWorld& world, Diagnostics& diag) {
       if (shapes.empty()) first = uses[u].shape;
       shapes.insert(uses[u].shape.value);
     }
+  return {shapes.size(), first};
+}
+
+void UnlitShapes::look_at(const light::LightWorld& world, Diagnostics& diag) {
+  if (decided_) return;
+  decided_ = true;
+  if (!wanted_) return;
   const bool says_unlit = scene_.format == Format::gltf;
-  lit_ = !shapes.empty() && !says_unlit && world.has_lamps();
-  if (lit_)
-    diag.report(Diag::unlit_lit, scene_.where(first), shapes.size());
-  else if (!shapes.empty())
-    diag.report(Diag::unlit_kept, scene_.where(first), shapes.size(),
-                says_unlit ? "glTF says that they are unlit" : "this world has no lamps");
+  if (says_unlit || !world.has_lamps())
+    return report_kept(world, says_unlit ? "glTF says that they are unlit" : "this world has no lamps", diag);
+  const Found found = find(world);
+  lit_ = found.n > 0;
+  if (lit_) diag.report(Diag::unlit_lit, scene_.where(found.first), found.n);
+}
+
+void UnlitShapes::report_kept(const light::LightWorld& world, std::string_view why, Diagnostics& diag) const {
+  if (const Found found = find(world); found.n > 0)
+    diag.report(Diag::unlit_kept, scene_.where(found.first), found.n, why);
 }
 
 void UnlitShapes::give_material(Scene& scene, const std::vector<Part>& parts, const drawing::Stage& stage) {

@@ -2,6 +2,7 @@
 // picture.
 #pragma once
 #include <cstddef>
+#include <string_view>
 #include <vector>
 
 #include "light/world.h"
@@ -19,6 +20,8 @@ class UnlitShapes {
   UnlitShapes(const Scene& scene, bool wanted);
   /// Decides by the world as it is seen first, and reports that, with the number of such Shapes. O(Shapes).
   void look_at(const light::LightWorld& world, Diagnostics& diag);
+  /// Reports that they stay as they are, with the number of such Shapes. O(Shapes).
+  void report_kept(const light::LightWorld& world, std::string_view why, Diagnostics& diag) const;
   bool are_lit() const { return lit_; }
   /// Of a Shape with such an Appearance, or without one.
   bool is_one(NodeId shape, NodeId appearance) const;
@@ -27,6 +30,12 @@ class UnlitShapes {
   void give_material(Scene& scene, const std::vector<Part>& parts, const drawing::Stage& stage);
 
  private:
+  struct Found {
+    std::size_t n = 0;
+    NodeId first;
+  };
+  Found find(const light::LightWorld& world) const;
+
   const Scene& scene_;
   bool wanted_, decided_ = false, lit_ = false;
   std::vector<char> before_viewer_, driven_;  // by node

@@ -19,6 +19,7 @@
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/name_path.h"
 #include "scenegraph/places/places.h"
 #include "scenegraph/walk.h"
 
@@ -351,26 +352,24 @@ std::set<std::string_view> Merging::names() const {
 /// without faces.
 void Merging::keep_lost_names() {
   const auto now = names();
-  std::set<std::string_view> in_table;
+  std::set<std::string> in_table;
   for (const auto& path : merged_parts_)
-    for (std::size_t from = 0; from <= path.size();) {
-      const auto to = std::min(path.find('/', from), path.size());
-      const std::string_view step(path.data() + from, to - from);
-      in_table.insert(step);
-      in_table.insert(step.substr(0, step.find('#')));
-      from = to + 1;
+    for (const auto step : path_steps(path)) {
+      in_table.insert(name_of_step(step));
+      in_table.insert(name_of_step(step.substr(0, step.find('#'))));
     }
   const NodeId geometry = scene_.get(made_.begin()->second[0], nodes::shape::geometry);
   const auto parts = features_of(scene_, geometry);
   if (!parts) return;
+  std::vector<std::string> lost;
+  for (auto n : names_before_)
+    if (!now.contains(n) && !in_table.contains(std::string(n))) lost.push_back(path_step(n));
+  if (lost.empty()) return;
   std::vector<std::string_view> all(parts->names.begin(), parts->names.end());
   std::vector<std::int32_t> faces(parts->faces.begin(), parts->faces.end());
-  for (auto n : names_before_)
-    if (!now.contains(n) && !in_table.contains(n)) {
-      all.push_back(n);
-      faces.push_back(0);
-    }
-  if (all.size() > parts->names.size()) set_features(scene_, geometry, {all, faces});
+  all.insert(all.end(), lost.begin(), lost.end());
+  faces.resize(all.size());
+  set_features(scene_, geometry, {all, faces});
 }
 
 /// One draw for each appearance and place of its own is the least there can be.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/places/name_path.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -168,8 +169,10 @@ std::uint32_t StillPlaces::zone_of(NodeId holder, bool shown, bool& fresh) {
 }
 
 std::string StillPlaces::name(std::uint32_t path) const {
+  std::vector<std::string_view> upwards;
+  for (; path; path = paths_[path].above) upwards.push_back(paths_[path].name);
   std::string out;
-  for (; path; path = paths_[path].above) out = std::string(paths_[path].name) + (out.empty() ? "" : "/") + out;
+  for (auto name = upwards.rbegin(); name != upwards.rend(); ++name) out = path_below(out, *name);
   return out;
 }
 

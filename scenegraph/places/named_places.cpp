@@ -3,6 +3,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "scenegraph/places/name_path.h"
 #include "scenegraph/places/ways.h"
 #include "scenegraph/walk.h"
 
@@ -49,7 +50,7 @@ void NamedPlaces::make_names() {
   names_.resize(steps_.size());
   for (std::uint32_t i = 1; i < steps_.size(); ++i) {
     const auto& above = names_[steps_[i].above];
-    names_[i] = above.empty() ? std::string(steps_[i].name) : above + '/' + std::string(steps_[i].name);
+    names_[i] = path_below(above, steps_[i].name);
     if (const auto n = ++times[names_[i]]; n > 1) names_[i] += '#' + std::to_string(n);
   }
 }

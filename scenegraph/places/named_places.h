@@ -24,8 +24,8 @@ class NamedPlaces {
   const std::vector<NamedPlace>& places() const { return places_; }
   /// There were more ways than may be followed (ways.h); what is behind them is left out.
   bool too_many() const { return too_many_; }
-  /// The names from the root to a place with '/' between them: "Unit/Pump". Paths that differ have different names:
-  /// the second of one name is "Unit/Pump#2". Empty where nothing has a name.
+  /// The names from the root to a place with '/' between them: "Unit/Pump" (name_path.h). Paths that differ have
+  /// different names: the second of one name is "Unit/Pump#2". Empty where nothing has a name.
   const std::string& name(std::uint32_t path) const { return names_[path]; }
 
  private:

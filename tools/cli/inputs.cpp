@@ -10,10 +10,12 @@
 #include <iostream>
 #include <iterator>
 #include <span>
+#include <sstream>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/text/blanks.h"
 #include "convert/formats.h"
 #include "tools/cli/flags.h"
 
@@ -120,24 +122,38 @@ class Gatherer {
       leave_out("there is no list '" + name + "'");
   }
 
-  void list(std::istream& lines, const std::string& name) {
-    bool first = true;
-    for (std::string line; std::getline(lines, line); first = false) {
-      std::error_code none;
-      if (first && begins_a_scene(line) && !fs::exists(line, none))
-        return leave_out(name +
-                         " is a scene, but a list is expected: the name of a scene in each line; save the scene " +
-                         "as a file and name that");
-      if (first && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
-      if (line.ends_with('\r')) line.pop_back();
-      if (line.empty()) continue;
-      if (fs::is_regular_file(line, none))
-        named(line, true);
-      else if (fs::is_directory(line, none))
-        leave_out(name + ": '" + line + "' is a folder; a list names files");
-      else
-        leave_out(name + ": there is no file '" + line + "'");
+  /// A path a line, or with NUL behind each, as find -print0 writes them.
+  void list(std::istream& in, const std::string& name) {
+    std::error_code none;
+    std::string line;
+    std::getline(in, line);
+    if (begins_a_scene(line) && !fs::exists(line, none))
+      return leave_out(name + " is a scene, but a list is expected: the name of a scene in each line; save the scene " +
+                       "as a file and name that");
+    if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
+    if (line.find('\0') == line.npos) {
+      do listed(line, name);
+      while (std::getline(in, line));
+      return;
     }
+    if (!in.eof()) line += '\n';
+    line.append(std::istreambuf_iterator<char>(in), {});
+    std::istringstream paths(line);
+    while (std::getline(paths, line, '\0')) listed(line, name);
+  }
+
+  /// Blanks around a path that is not there with them do not count, and lines that begin with '#' are comments.
+  void listed(const std::string& line, const std::string& name) {
+    std::error_code none;
+    const std::string path(fs::exists(line, none) ? line : trim(line));
+    const bool is_there = fs::exists(path, none);
+    if (path.empty() || (!is_there && path.starts_with('#'))) return;
+    if (fs::is_regular_file(path, none))
+      named(path, true);
+    else if (is_there && fs::is_directory(path, none))
+      leave_out(name + ": '" + path + "' is a folder; a list names files");
+    else
+      leave_out(name + ": there is no file '" + path + "'");
   }
 
   /// A file by its name, whatever its ending. Those of lists are in the mirrored tree where their paths say.

@@ -163,11 +163,15 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     flags.output = target;
     flags.load.allow_paths = allowed_folders(work, plan, job);
     flags.save.own_folder = true;
-    if (work.text && job.input.mirrored)
-      flags.save.kept_below = fs::weakly_canonical(plan.roots[job.input.root], none).string();
     ConversionExtras extras;
-    if (!flags.save.kept_below.empty())
+    if (work.text && job.input.mirrored) {
+      const auto& folder = plan.roots[job.input.root];
+      flags.save.is_mirrored = [&, canonical = fs::weakly_canonical(folder, none)](const std::string& path) {
+        return plan.by_path.contains(
+            (fs::path(folder) / fs::path(path).lexically_relative(canonical)).lexically_normal());
+      };
       extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); };
+    }
     extras.may_replace = may_replace;
     extras.take = [&](const std::string& path) {
       if (auto name = name_below(work.out, path); name != job.output)

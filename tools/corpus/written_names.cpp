@@ -6,14 +6,13 @@
 #include <filesystem>
 
 #include "base/io/allowed_files.h"
+#include "scenegraph/urls.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_url(const FieldDef& f) { return f.type == FieldType::MFString && (f.name == "url" || f.name.ends_with("Url")); }
 
 /// A path as a url: what would be read as something else is encoded.
 std::string url_of(const std::string& path) {
@@ -33,10 +32,11 @@ class Namer {
       : scene_(scene), plan_(plan), job_(job), files_(allowed), main_(scene.sources->file(0)) {}
 
   void name_all() {
+    const UrlFields fields(scene_);
     for (NodeId n : all_nodes(scene_)) {
-      const auto& type = scene_.type(n);
-      for (std::uint16_t slot = 0; slot < type.fields.size(); ++slot) {
-        if (!is_url(type.fields[slot])) continue;
+      const auto n_fields = static_cast<std::uint16_t>(scene_.type(n).fields.size());
+      for (std::uint16_t slot = 0; slot < n_fields; ++slot) {
+        if (fields.use(scene_.type_id(n), slot) == UrlUse::none) continue;
         const Value* v = scene_.find(n, slot);
         if (!v || v->is || v->type != FieldType::MFString || v->count == 0 || !names(v->text_span(), scene_.where(n)))
           continue;

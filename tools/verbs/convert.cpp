@@ -118,7 +118,7 @@ void warn_of_idle_options(const Flags& flags) {
 }
 
 void warn_of_files_outside(Session& s, const Output& to, const SaveOptions& options) {
-  const bool is_alone = options.embed || options.link || options.dump || !options.kept_below.empty();
+  const bool is_alone = options.embed || options.link || options.dump || options.is_mirrored;
   if (to.path != "-" || !to.format->is_text || is_alone || s.flags().quiet || isatty(STDOUT_FILENO) != 0) return;
   const auto files = files_outside(s.world().scene, s.resources());
   if (files.empty()) return;

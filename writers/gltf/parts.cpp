@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scenegraph/places/name_path.h"
+
 namespace wrlkit::gltf {
 namespace {
 
@@ -24,15 +26,14 @@ std::uint32_t PartTable::find_or_add(std::string_view name, std::uint32_t parent
 
 std::uint32_t PartTable::of_path(std::string_view path) {
   std::uint32_t parent = none;
-  if (!columns_) return find_or_add(path, none);
+  if (!columns_) return find_or_add(path, none);     // paths are read as such
   if (path.empty()) return find_or_add("#1", none);  // merge calls the next ones without a name "#2", "#3"
-  for (std::size_t begin = 0; begin <= path.size();) {
-    const auto end = std::min(path.find('/', begin), path.size());
-    parent = find_or_add(path.substr(begin, end - begin), parent);
-    const auto source = std::ranges::lower_bound(sources_, path.substr(0, end));
-    if (source != sources_.end() && *source == path.substr(0, end))
+  for (const auto step : path_steps(path)) {
+    parent = find_or_add(name_of_step(step), parent);
+    const auto here = path.substr(0, static_cast<std::size_t>(step.data() + step.size() - path.data()));
+    const auto source = std::ranges::lower_bound(sources_, here);
+    if (source != sources_.end() && *source == here)
       rows_[parent].source = static_cast<std::uint32_t>(source - sources_.begin());
-    begin = end + 1;
   }
   return parent;
 }

@@ -87,6 +87,16 @@ echo '-- a glob'
 run 'above/in/*.wrl' -o above/o3 --format wrl --allow-path above/up
 find above/o2 above/o3 -type f -not -path '*.wrlkit*' | sort
 
+echo '-- what --exclude takes away'
+mkdir -p left/in/parts
+box left/in/parts/b.wrl
+box left/in/parts/c.wrl
+(echo '#VRML V2.0 utf8'; echo 'Inline { url "parts/b.wrl" }'; echo 'Inline { url "parts/c.wrl" }') > left/in/a.wrl
+run left/in -o left/out --format wrl --exclude 'parts/b*'
+grep -ho 'url.*' left/out/a.wrl
+wrlkit check left/out/a.wrl | tail -1
+find left/out -type f -not -path '*.wrlkit*' | sort
+
 echo '-- a folder of inputs below'
 mkdir -p p/units
 shape none.png | tee p/main.wrl p/units/a.wrl > log
