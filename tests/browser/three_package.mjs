@@ -1,6 +1,6 @@
 // The package wrlkit-three (integrations/three) in Chromium, by its example page as people get it: compiled, next to three.js. Levels of detail change at
 // the ranges that VRML has; baked light, with and without directions, looks as in `wrlkit render`; parts in tables have the names and groups
-// that they have as nodes.
+// that they have as nodes; colours, transparency, pictures and lamps are animated as the interpolators of VRML say.
 //   node three_package.mjs WRLKIT FOLDER
 import assert from 'node:assert';
 import {execFileSync} from 'node:child_process';
@@ -142,7 +142,46 @@ async function names() {
   return {same, of: both.length, parts: new Set(seen[1]).size, calls};
 }
 
+async function properties() {
+  const world = path.join(folder, 'properties.wrl'), cycle = 4, fraction = 0.25;
+  const drive = (name, type, values, event) => `DEF ${name} ${type} { key [ 0 1 ] keyValue [ ${values} ] } ROUTE C.fraction_changed TO ${name}.set_fraction ROUTE ${name}.value_changed TO ${event}\n`;
+  fs.writeFileSync(world, `#VRML V2.0 utf8
+Viewpoint { position 0 0 6 }
+DEF Lamp PointLight { location 0 0 3 attenuation 0 0 1 }
+Shape { appearance Appearance {
+  material DEF M Material { diffuseColor 1 0 0 emissiveColor 0 0 1 transparency 0 }
+  texture PixelTexture { image 2 1 1 255 128 } textureTransform DEF T TextureTransform { } }
+  geometry Box { } }
+DEF C TimeSensor { cycleInterval ${cycle} loop TRUE }
+${drive('Red', 'ColorInterpolator', '1 0 0, 0 1 0', 'M.diffuseColor')}${drive('Glow', 'ColorInterpolator', '0 0 1, 0 0 0.2', 'M.emissiveColor')}
+${drive('Fade', 'ScalarInterpolator', '0 0.8', 'M.transparency')}${drive('Dim', 'ScalarInterpolator', '1 0', 'Lamp.intensity')}
+${drive('Slide', 'PositionInterpolator2D', '0 0, 1 0', 'T.translation')}`);
+  convert(world, 'properties.glb', '--animation-pointer');
+  const {page, faults} = await open('properties.glb');
+  const seen = await page.evaluate(async time => {
+    const {AnimationMixer} = await import('three'), {gltf} = window.example, mixer = new AnimationMixer(gltf.scene);
+    let material, lamp;
+    gltf.scene.traverse(o => { material ??= o.material; lamp ??= o.isPointLight ? o : undefined; });
+    const full = lamp.intensity;
+    for (const clip of gltf.animations) mixer.clipAction(clip).play();
+    mixer.setTime(time);
+    return {color: material.color.toArray(), emissive: material.emissive.toArray(), opacity: material.opacity, transparent: material.transparent, map: material.map.offset.toArray(), dimmed: lamp.intensity / full};
+  }, fraction * cycle);
+  assert.deepEqual(faults, []);
+  await page.close();
+  const linear = v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
+  const close = (found, expected, what) => [found].flat().forEach((v, i) => assert(Math.abs(v - [expected].flat()[i]) < 0.01, `${what}: ${found} instead of ${expected}`));
+  close(seen.color, [1, 2 * fraction, 0].map(linear), 'diffuseColor');  // by way of yellow: in HSV
+  close(seen.emissive, [0, 0, 1 - 0.8 * fraction].map(linear), 'emissiveColor');
+  close(seen.opacity, 1 - 0.8 * fraction, 'transparency');
+  assert(seen.transparent);
+  close(seen.map, [fraction, 0], 'translation of the picture');
+  close(seen.dimmed, 1 - fraction, 'intensity');
+  return seen;
+}
+
 try {
+  console.log('properties:', await properties());
   console.log(`levels: ${await levels()}`);
   console.log('light:', await light());
   console.log('names:', await names());

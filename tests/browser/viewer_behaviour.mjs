@@ -97,6 +97,25 @@ async function anchors() {
   await close();
 }
 
+/// Colours change as ColorInterpolators say.
+async function colours() {
+  const text = `#X3D V3.3 utf8\nPROFILE Immersive\nViewpoint { position 0 0 10 }\nNavigationInfo { headlight FALSE }
+    Transform { translation -2 0 0 children [ DEF Touch TouchSensor {} ${box('w')} ] }
+    Transform { translation 2 0 0 children Shape { appearance Appearance { material DEF Paint Material { diffuseColor 0 0 0 emissiveColor 1 0 0 } } geometry Box { size 1 1 1 } } }
+    DEF Clock TimeSensor { cycleInterval 0.4 } DEF Mix ColorInterpolator { key [ 0 1 ] keyValue [ 1 0 0 0 1 0 ] }
+    ROUTE Touch.touchTime TO Clock.startTime\nROUTE Clock.fraction_changed TO Mix.set_fraction\nROUTE Mix.value_changed TO Paint.emissiveColor\n`;
+  const {page, faults, close} = await open_world('colours', text);
+  const shows = async letter => is_color((await page.evaluate(in_page.state, {points: [[2, 0, 0]], nodes: []})).colors[0], letter);
+  await page.evaluate(in_page.hold);
+  await page.getByLabel('Run the world').check();
+  assert(await shows('r'));
+  await page.mouse.click(...await page.evaluate(in_page.pixel, [-2, 0, 0]));
+  await page.evaluate(in_page.pass, 0.6);
+  assert(await shows('g'));
+  assert.deepEqual(faults, []);
+  await close();
+}
+
 /// A Billboard turns to the viewer while the world runs; what does not run is named.
 async function billboard_and_list() {
   const text = `#X3D V3.3 utf8\nPROFILE Immersive\nViewpoint { position 0 0 10 }\nBillboard { children ${box('r', '2 2 0.01')} }
@@ -337,6 +356,7 @@ try {
   await hostile_scripts();
   await scripts_that_outlive_their_calls();
   for (const world of [...worlds, hidden_levels]) if (!world.events) await runs(world);
+  await colours();
   await anchors();
   await billboard_and_list();
   await sounds();
