@@ -40,7 +40,7 @@ void DirectLight::lamps(const Receiver& at, int most, RandomStream& random, Flux
   for (const Lamp& l : world_.lamps()) add_candidate(all, l, at);
   world_.each_directional(at.scope, [&](const Lamp& l) { add_candidate(all, l, at); });
   auto shine = [&](const Candidate& c, double times) {
-    double through = world_.transmittance({at.start, c.direction}, c.distance);
+    double through = world_.lamp_transmittance({at.start, c.direction}, c.distance);
     if (through > 0) to.add(through * times * c.irradiance, c.direction);
   };
   std::size_t n = static_cast<std::size_t>(most), n_sure = all.size();

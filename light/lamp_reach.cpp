@@ -16,7 +16,7 @@ std::optional<double> opaque_distance(const LightWorld& world, const Ray& ray) {
   double after = 0;
   Hit hit;
   for (int layer = 0; layer < most_layers && world.nearest(ray, after, hit); ++layer, after = hit.distance)
-    if (!world.is_clear(hit.use)) return hit.distance;
+    if (!world.is_clear(hit.use) && !world.is_bulb(hit.use)) return hit.distance;
   return {};
 }
 

@@ -20,6 +20,7 @@ constexpr std::size_t most_emitters = 1'000'000;
 constexpr int most_layers = 32;  // of transparent things, one behind the other
 constexpr double least_of_lamp =
     0.2140;  // radiance: lin(0.5); CAD programs give a surface emission of a tenth or two for its looks
+constexpr double most_of_bulb = 0.1;       // of the area of all faces
 constexpr double least_light = 1.0 / 256;  // radiance that a display hardly tells from black
 using std::numbers::pi;
 
@@ -56,8 +57,9 @@ LightWorld::LightWorld(const Scene& scene, const MeshSource& source, Resources* 
   make_facts(scene, resources, diag);
   make_lamps(scene);
   make_sky(scene, resources, diag);
+  find_bulbs();
   std::vector<char> clear;
-  for (const UseFacts& f : facts_) clear.push_back(f.clear);
+  for (const UseFacts& f : facts_) clear.push_back(f.clear || f.bulb);
   rays_.emplace(stage_, pool_, mesh_of_,
                 RayOptions{.cull = false, .fronts_first = true, .all_flat = options.all_flat, .clear = clear}, diag);
   make_emitters();
@@ -91,6 +93,40 @@ void LightWorld::make_lamps(const Scene& scene) {
     if (auto l = lamp_of(make_light(scene, p, stage_))) lamps_.push_back(*l);
   for (const LightScope& s : stage_.scopes)
     scoped_.push_back(s.light.node ? lamp_of(make_light(scene, s.light, stage_)) : std::nullopt);
+}
+
+/// Rooms that glow hold lamps, too: what has more than a small share of all area is no bulb.
+void LightWorld::find_bulbs() {
+  if (!emits_ || lamps_.empty()) return;
+  std::optional<double> all;
+  for (std::uint32_t u = 0; u < facts_.size(); ++u) {
+    if (pool_[mesh_of_[u]].kind != Mesh::Kind::faces || strongest(facts_[u].emission) < least_of_lamp) continue;
+    if (!holds_lamp(box_of(u), 0)) continue;
+    if (!all) all = total_area();
+    facts_[u].bulb = area_of(u) <= most_of_bulb * *all;
+    has_clear_ |= facts_[u].bulb;
+  }
+}
+
+Box LightWorld::box_of(std::uint32_t use) const {
+  Box out;
+  for (int k = 0; k < 8; ++k) out.add(stage_.frames[stage_.uses[use].frame].point(pool_[mesh_of_[use]].box.corner(k)));
+  return out;
+}
+
+bool LightWorld::holds_lamp(const Box& box, double margin) const {
+  const V3 room(margin * length(V3(box.size())));
+  return std::ranges::any_of(lamps_, [&](const Lamp& lamp) {
+    const V3 above = lamp.light.location - (V3(box.low) - room), below = V3(box.high) + room - lamp.light.location;
+    return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0;
+  });
+}
+
+double LightWorld::total_area() const {
+  double all = 0;
+  for (std::uint32_t u = 0; u < facts_.size(); ++u)
+    if (const double area = area_of(u); std::isfinite(area)) all += area;
+  return all;
 }
 
 void LightWorld::spread_lamps() {
@@ -236,14 +272,15 @@ bool LightWorld::encloses(const Ray& from) const {
   return left > 0;
 }
 
-double LightWorld::transmittance(const Ray& ray, double distance) const {
+double LightWorld::passing(const Ray& ray, double distance, bool through_bulbs) const {
   if (rays_->occluded(ray, 0, distance)) return 0;
   double through = 1, after = 0;
   if (!has_clear_) return through;
   Hit hit;
   for (int layer = 0; layer < most_layers && nearest(ray, after, hit) && hit.distance < distance; ++layer) {
-    through *= 1 - std::clamp(base(facts_[hit.use], hit).alpha, 0.0, 1.0);
     after = hit.distance;
+    if (through_bulbs && is_bulb(hit.use)) continue;
+    through *= 1 - std::clamp(base(facts_[hit.use], hit).alpha, 0.0, 1.0);
   }
   return through;
 }

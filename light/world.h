@@ -105,8 +105,16 @@ class LightWorld {
   /// Whether a place lies within sealed surfaces that hide it: a ray from there leaves more of them than it enters. As
   /// many nearest() as there are surfaces on its way, 64 at the most.
   bool encloses(const Ray& from) const;
+  /// Around a use, in the world.
+  Box box_of(std::uint32_t use) const;
+  /// Whether a PointLight or SpotLight is in a box, widened by so much of its diagonal.
+  bool holds_lamp(const Box& box, double margin) const;
+  /// It shines and has a light node inside: the glass of a lamp. To VRML light nodes it is not in the way.
+  bool is_bulb(std::uint32_t use) const { return facts_[use].bulb; }
   /// What of the light passes along so much of a ray: 0 when something opaque stands there.
-  double transmittance(const Ray& ray, double distance) const;
+  double transmittance(const Ray& ray, double distance) const { return passing(ray, distance, false); }
+  /// The same of the light of a light node, which bulbs let through.
+  double lamp_transmittance(const Ray& ray, double distance) const { return passing(ray, distance, true); }
   /// Radiance of the sky in a direction of the world.
   V3 sky(const V3& direction) const;
   bool has_sky() const { return has_sky_; }
@@ -152,8 +160,9 @@ class LightWorld {
     Inner inner = Inner::neither;
     bool sealed = false;
     std::uint32_t first_emitter = no_emitter;
-    bool clear = false;   // some of it may be transparent
-    bool plain = false;   // one colour everywhere
+    bool clear = false;  // some of it may be transparent
+    bool plain = false;  // one colour everywhere
+    bool bulb = false;
     V3 albedo, emission;  // when it is plain
   };
 
@@ -164,12 +173,15 @@ class LightWorld {
   HitPoint hit_point(const Hit& hit) const;
   void make_facts(const Scene& scene, Resources* resources, Diagnostics& diag);
   void make_lamps(const Scene& scene);
+  void find_bulbs();
+  double passing(const Ray& ray, double distance, bool through_bulbs) const;
   /// They fall by the square of the distance from now on.
   void spread_lamps();
   void make_sky(const Scene& scene, Resources* resources, Diagnostics& diag);
   /// Whether surfaces that shine as lamps do are light enough for all others.
   bool glow_is_light() const;
   double area_of(std::uint32_t use) const;
+  double total_area() const;
   void make_emitters();
   /// Its own colour is light.
   bool glows(const drawing::Surface& s) const { return s.shines || (!s.lit && options_.unlit_emits); }

@@ -74,18 +74,9 @@ void Levels::find_shades(const light::LightWorld& world) {
   std::vector<char> around(scene_.node_count());
   const auto& stage = world.stage();
   for (std::size_t u = 0; u < stage.uses.size() && !world.lamps().empty(); ++u) {
-    Box box;
-    for (int k = 0; k < 8; ++k)
-      box.add(stage.frames[stage.uses[u].frame].point(world.meshes()[world.mesh_of()[u]].box.corner(k)));
-    const double size = drawing::length(box.size());
-    if (!(size < small * world.radius())) continue;
-    const drawing::V3 room(margin * size);
-    auto holds = [&](const light::Lamp& lamp) {
-      const drawing::V3 above = lamp.light.location - (drawing::V3(box.low) - room),
-                        below = drawing::V3(box.high) + room - lamp.light.location;
-      return std::min({above.x, above.y, above.z, below.x, below.y, below.z}) >= 0;
-    };
-    around[stage.uses[u].shape.value] |= std::ranges::any_of(world.lamps(), holds);
+    const Box box = world.box_of(static_cast<std::uint32_t>(u));
+    if (!(drawing::length(box.size()) < small * world.radius())) continue;
+    around[stage.uses[u].shape.value] |= world.holds_lamp(box, margin);
   }
   shades_ = holders(
       scene_, [&](NodeId n) { return shown_children(scene_, n); }, [&](NodeId n) { return around[n.value]; });

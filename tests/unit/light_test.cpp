@@ -62,6 +62,33 @@ TEST_CASE("light: a PointLight over a plane") {
   }
 }
 
+TEST_CASE("light: a PointLight shines through the glass that shines around it, and through no other") {
+  const std::string lamp = "PointLight { location 0 0 2 attenuation 0 0 1 }",
+                    floor = "Transform { translation 0 0 -1 children Shape { geometry Box { size 9 9 0.1 } } }";
+  const auto around = [](std::string_view look, double size) {
+    return fmt::format(
+        " Transform {{ translation 0 0 2 children Shape {{ appearance Appearance {{ material Material {{ {} }} }} "
+        "geometry Box {{ size {} {} {} }} }} }}",
+        look, size, size, size);
+  };
+  const auto irradiance = [&](const std::string& what) {
+    return total(Room(lamp + floor + what).irradiance(up, {.rays = 64}));
+  };
+  const std::string shining = "diffuseColor 0 0 0 emissiveColor 1 1 1",
+                    faint = "diffuseColor 0 0 0 emissiveColor 0.3 0.3 0.3";
+  const double bare = irradiance("");
+  const std::string elsewhere =
+      " Transform { translation 0 0 1 children Shape { appearance Appearance { material "
+      "Material { diffuseColor 0 0 0 emissiveColor 1 1 1 } } geometry Box { size 0.1 0.1 0.1 } } }";
+  CHECK(irradiance(around(shining, 0.1)) > bare);
+  CHECK(irradiance(around("diffuseColor 0 0 0", 0.1)) < 0.01 * bare);
+  CHECK(irradiance(around(faint, 0.1)) < 0.1 * bare);
+  CHECK(irradiance(elsewhere) < 0.5 * bare);
+  // Walls that glow are no bulb.
+  const auto walls = floor + around(shining, 3);
+  CHECK(irradiance(around(shining, 3)) == Approx(total(Room(walls).irradiance(up, {.rays = 64}))));
+}
+
 TEST_CASE("light: a sky with walls") {
   LightOptions white{.sky = LightOptions::Sky::constant};
   check("open plane", Room("", white), up, pi);

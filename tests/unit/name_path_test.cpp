@@ -1,7 +1,7 @@
 // Names on the way to a part, as one text.
 #include "scenegraph/places/name_path.h"
 
-#include <catch2/catch_test_macros.hpp>
+#include <catch2/catch.hpp>
 
 using namespace wrlkit;
 
