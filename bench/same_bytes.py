@@ -14,6 +14,8 @@ ways = {
     'x3d': ['out.x3d'],
     'lod': ['out.glb', '-p', 'join,weld,lod'],
     'small': ['out.glb', '-p', 'dedup,instance,merge', '--compress', 'meshopt'],
+    'world': ['out.wrl', '-p', 'weld,lod{scope=world}'],
+    'light': ['out.glb', '-p', 'lightmap{quality=draft,density=1,max-size=64}'],
     'draco': ['out.glb', '-p', 'weld', '--compress', 'draco'],
     'dump': ['out.wrl', '-p', 'inline,expand-protos,prune,flatten,weld', '--dump'],
 }
@@ -27,10 +29,10 @@ def worlds(only):
                 yield path
 
 
-def convert(program, world, way):
+def convert(program, world, way, threads):
     with tempfile.TemporaryDirectory() as folder:
         out, *options = ways[way]
-        command = [program, 'convert', str(world), out, *options, '-q', '--jobs', '1']
+        command = [program, 'convert', str(world), out, *options, '-q', '--jobs', str(threads)]
         try:
             run = subprocess.run(command, capture_output=True, cwd=folder, timeout=300)
             code, said = run.returncode, run.stderr.decode(errors='replace')
@@ -43,13 +45,13 @@ def convert(program, world, way):
         return {'code': code, 'bytes': made.hexdigest()[:20], 'said': said}
 
 
-def results(program, only, jobs):
+def results(program, only, jobs, threads):
     if program.endswith('.json'):
         return json.loads(pathlib.Path(program).read_text())
     program = os.path.abspath(program)
     jobs_to_run = [(world, way) for world in worlds(only) for way in ways]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        made = pool.map(lambda t: convert(program, *t), jobs_to_run)
+        made = pool.map(lambda t: convert(program, *t, threads), jobs_to_run)
         return {f'{os.path.relpath(world, root)} {way}': m for (world, way), m in zip(jobs_to_run, made)}
 
 
@@ -59,8 +61,9 @@ def main():
     arguments.add_argument('--keep')
     arguments.add_argument('--only')
     arguments.add_argument('--jobs', type=int, default=os.cpu_count())
+    arguments.add_argument('--threads', type=int, default=1, help='of each conversion')
     a = arguments.parse_args()
-    made = [results(p, a.only, a.jobs) for p in a.programs]
+    made = [results(p, a.only, a.jobs, a.threads) for p in a.programs]
     if a.keep:
         pathlib.Path(a.keep).write_text(json.dumps(made[0]))
     if len(made) == 1:
