@@ -7,7 +7,7 @@
 
 namespace wrlkit {
 
-/// Into an attribute between apostrophes. Control characters that XML cannot hold become blanks.
+/// Into an attribute between apostrophes: characters that XML can hold (XmlCharacters).
 inline void xml_attribute_text(TextOut& out, std::string_view s) {
   for (char c : s) switch (c) {
       case '&':
@@ -32,7 +32,7 @@ inline void xml_attribute_text(TextOut& out, std::string_view s) {
         out << "&#9;";
         break;
       default:
-        out << (static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+        out << c;
     }
 }
 
@@ -57,17 +57,6 @@ inline std::string xml_text(std::string_view s) {
         out += static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r' ? ' ' : c;
     }
   return out;
-}
-
-/// A Name of XML without a colon, as far as ASCII goes.
-inline bool is_xml_name(std::string_view s) {
-  auto letter = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || static_cast<unsigned char>(c) >= 0x80;
-  };
-  if (s.empty() || !letter(s[0])) return false;
-  for (char c : s)
-    if (!letter(c) && !(c >= '0' && c <= '9') && c != '-' && c != '.') return false;
-  return true;
 }
 
 }  // namespace wrlkit

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/text/xml_characters.h"
 #include "scenegraph/legal_name.h"
 #include "scenegraph/scene.h"
 #include "scenegraph/walk.h"
@@ -40,7 +41,7 @@ void for_each_statement(const Scene& scene, Dialect dialect, const std::unordere
 /// Output names of a scope and of the bodies of its prototypes, which are scopes of their own: what is in one and
 /// outside is printed in both. A name may be defined several times: USE means the last one before it (4.4.3). Nodes are
 /// met in the order in which they will be printed, and one that a USE or a ROUTE would miss gets a name of its own. So
-/// does one whose name no reader would take for a name, as programs may give it; that is reported.
+/// does one whose name no reader would take for a name, as programs may give it, or XML cannot hold; that is reported.
 class Names {
  public:
   Names(const Scene& scene, Dialect dialect, bool own_fields, Diagnostics& diag)
@@ -108,7 +109,8 @@ class Names {
       }
       if (auto name = scene_.name(n); !name.empty()) {
         last_[name] = n;
-        if (!is_one_word(name)) repair(n, name);
+        if (!is_one_word(name)) repair(n, name, legal_name(name));
+        if (dialect_ == Dialect::x3d && !is_xml_text(name)) repair(n, name, std::string(XmlCharacters().only(name)));
       }
       auto mark = stack.size();
       for_each_printed_child(n, [&](NodeId c) { stack.push_back(c); });
@@ -129,9 +131,8 @@ class Names {
     given_[n.value] = fresh(name);
   }
 
-  void repair(NodeId n, std::string_view name) {
+  void repair(NodeId n, std::string_view name, const std::string& legal) {
     if (given_.count(n.value)) return;
-    auto legal = legal_name(name);
     const auto& written = given_[n.value] = taken().insert(legal).second ? legal : fresh(legal);
     diag_.report(Diag::name_changed, scene_.where(n), name, written);
   }

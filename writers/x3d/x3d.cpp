@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/text/blanks.h"
+#include "base/text/xml_characters.h"
 #include "base/text/xml_text.h"
 #include "geometry/forms/form_faces.h"
 #include "scenegraph/access_word.h"
@@ -44,14 +45,26 @@ class X3dWriter : TextDocument {
     names_.scope(scene_.main);
     indented([&] { element("Scene", [&] { scope(scene_.main); }); });
     line() << "</X3D>\n";
+    if (const auto n = characters_.n_replaced()) diag_.report(Diag::x3d_character, replaced_at_, n);
   }
 
  private:
+  /// A text as XML can hold it, until the next one. Where the first one stood that it could not is remembered.
+  std::string_view characters(std::string_view text) {
+    const auto before = characters_.n_replaced();
+    const auto held = characters_.only(text);
+    if (before == 0 && characters_.n_replaced() > 0) replaced_at_ = at_;
+    return held;
+  }
+
+  /// Inside of an attribute.
+  void attribute_text(std::string_view text) { xml_attribute_text(out_, characters(text)); }
+
   /// Names and texts in turn.
   template <class... More>
   void attribute(std::string_view name, std::string_view text, const More&... more) {
     out_ << ' ' << name << "='";
-    xml_attribute_text(out_, text);
+    attribute_text(text);
     out_ << '\'';
     if constexpr (sizeof...(more) > 0) attribute(more...);
   }
@@ -86,7 +99,8 @@ class X3dWriter : TextDocument {
       text += '\n';
     }
     for (std::size_t at; (at = text.find("--")) != text.npos;) text.insert(at + 1, " ");
-    out_ << "<!--\n" << text << "-->\n";
+    if (!text.ends_with('\n')) text += '\n';
+    out_ << "<!--\n" << characters(text) << "-->\n";
   }
 
   void head(const X3dProfile& profile) {
@@ -197,6 +211,7 @@ class X3dWriter : TextDocument {
   /// version.
   void node(NodeId n, std::string_view field) {
     if (!n) return;
+    at_ = scene_.where(n);
     const auto& t = scene_.type(n);
     const bool instance = t.kind == NodeKind::proto;
     const auto element = instance ? std::string_view("ProtoInstance") : element_name(n);
@@ -219,6 +234,7 @@ class X3dWriter : TextDocument {
     }
     out_ << '>';
     indented([&] { instance ? field_values(n) : children(n); });
+    at_ = scene_.where(n);
     line() << "</" << element << '>';
   }
 
@@ -272,15 +288,26 @@ class X3dWriter : TextDocument {
     out_ << '\'';
   }
 
+  /// An attribute of that name stands in the tag already.
+  bool is_written_before(NodeId n, const Value& v) const {
+    const auto& fields = scene_.type(n).fields;
+    for (const Value* other : names_.printed_order(n)) {
+      if (other == &v) break;
+      if (scene_.field_name(n, *other) == v.extra->name) return true;
+    }
+    return std::ranges::any_of(
+        fields, [&](const FieldDef& f) { return f.name == v.extra->name && f.x3d_from && version_ >= f.x3d_from; });
+  }
+
   /// A field that nobody knows.
   void extra_attribute(NodeId n, const Value& v) {
     const auto& c = v.extra->value;
     if (c.is || (info(c.type).element == Element::node && is_xml_name(v.extra->name)))
       return;  // stands among the children
     const auto name = v.extra->name;
-    const bool reserved = name == "DEF" || name == "USE" || name == "containerField" || name == "class" ||
-                          name == "id" || name == "style";
-    if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim)
+    const bool reserved = name.starts_with("xml") || name == "DEF" || name == "USE" || name == "containerField" ||
+                          name == "class" || name == "id" || name == "style";
+    if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim || is_written_before(n, v))
       return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
     attribute(name, as_xml(c.text()));
   }
@@ -315,7 +342,7 @@ class X3dWriter : TextDocument {
       for (NodeId m : c.node_span()) node(m, extra ? v->extra->name : t.fields[v->slot].name);
     }
     for (const Value* v : written)
-      if (program(n, *v)) line() << "<![CDATA[" << v->text_span()[0] << "]]>";
+      if (program(n, *v)) line() << "<![CDATA[" << characters(v->text_span()[0]) << "]]>";
   }
 
   void connections(NodeId n, const std::vector<const Value*>& written) {
@@ -371,7 +398,7 @@ class X3dWriter : TextDocument {
     else if (t.multiple)
       strings(v.text_span());
     else
-      xml_attribute_text(out_, v.text());
+      attribute_text(v.text());
   }
 
   template <class S>
@@ -379,7 +406,7 @@ class X3dWriter : TextDocument {
     bool first = true;
     for (std::string_view s : list) {
       if (!std::exchange(first, false)) out_ << ' ';
-      quoted(s, [&](std::string_view part) { xml_attribute_text(out_, part); });
+      quoted(s, [&](std::string_view part) { attribute_text(part); });
     }
   }
 
@@ -390,6 +417,9 @@ class X3dWriter : TextDocument {
   const TextOptions& options_;
   Diagnostics& diag_;
   int version_;
+  XmlCharacters characters_;
+  Span at_;           // of the node that is printed
+  Span replaced_at_;  // of the first one with a character that XML cannot hold
 };
 
 }  // namespace
