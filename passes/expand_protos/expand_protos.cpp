@@ -8,6 +8,7 @@
 #include "passes/analysis/own_nodes.h"
 #include "passes/analysis/prototypes.h"
 #include "passes/analysis/route_table.h"
+#include "passes/expand_protos/instance_values.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -50,9 +51,19 @@ class Key {
  public:
   explicit Key(ProtoId body) { number(body.value); }
   void add(const Given& g, std::string_view file) {
-    constexpr std::size_t most = 64;
-    const Value& v = g.value;
     pointer(g.field);
+    add(g.value, file);
+  }
+  void add(const InstanceValues::Unused& u, std::string_view file) {
+    number(u.name.size());
+    key_ += u.name;
+    add(u.value, file);
+  }
+  std::string text() && { return std::move(key_); }
+
+ private:
+  void add(const Value& v, std::string_view file) {
+    constexpr std::size_t most = 64;
     number(v.type);
     number(v.count);
     const auto numbers = v.number_span();
@@ -77,9 +88,6 @@ class Key {
         return integers.size() <= most ? bytes(integers.data(), integers.size_bytes()) : pointer(v.integers);
     }
   }
-  std::string text() && { return std::move(key_); }
-
- private:
   void bytes(const void* p, std::size_t n) { key_.append(static_cast<const char*>(p), n); }
   void pointer(const void* p) { bytes(&p, sizeof p); }
   void number(auto n) { bytes(&n, sizeof n); }
@@ -93,6 +101,7 @@ class Expansion {
         options_(options),
         ctx_(ctx),
         prototypes_(scene, ctx),
+        values_(scene, prototypes_, ctx.diag),
         budget_(budget),
         routes_(scene.main.routes) {}
 
@@ -124,35 +133,44 @@ class Expansion {
   // ---- instances ---------------------------------------------------------------------------------------------------
   struct Known {
     NodeId node;
-    Span where;  // where the instance stood that it was made for
+    Span where;          // where the instance stood that it was made for
+    std::size_t n_sets;  // of metadata that it had as an instance of something else
   };
 
   bool expand(NodeId n) {
     const Prototype& p = prototypes_.of(n);
     if (p.state != Prototype::ready && p.state != Prototype::empty) return false;
     expanded_ = true;
+    const bool routed = routes_.touches(n), whole = p.has_state || routed;
+    const auto unused = values_.unused(n, p, whole);
     if (p.state == Prototype::empty || !spend(1, scene_.where(n))) {
+      values_.add(n, unused);
       scene_.become(n, nodes::Group, {});
       return false;
     }
-    Instance i{n, scene_.where(n), p.body, given_by(n, p.body), {scene_, prototypes_.own()}, routes_.touches(n), {}};
-    if (p.has_state || i.routed) {
+    Instance i{n, scene_.where(n), p.body, given_by(n, p.body), {scene_, prototypes_.own()}, routed, {}};
+    if (whole) {
+      values_.add(n, unused);
       expand_alone(i, true);
       return true;
     }
     Key key(i.body);
     for (const Given& g : i.given) key.add(g, scene_.sources->file(i.where.begin));
-    auto [known, is_new] = known_.try_emplace(std::move(key).text(), Known{n, i.where});
-    if (is_new)
+    for (const auto& u : unused) key.add(u, scene_.sources->file(i.where.begin));
+    auto [known, is_new] = known_.try_emplace(std::move(key).text(), Known{n, i.where, values_.n_sets(n)});
+    if (is_new) {
+      values_.add(n, unused);
       expand_alone(i, false);
-    else
+    } else {
       expand_like(n, known->second);
+    }
     return true;
   }
 
   /// The instance has the same nodes as another one.
   void expand_like(NodeId n, const Known& other) {
     budget_.spent += cost_of_copy(scene_, other.node);
+    values_.add_like(n, other.node, other.n_sets);
     scene_.become(n, scene_.type_id(other.node), scene_.fields(other.node));
     bool moved = scene_.where(other.node).begin != other.where.begin;
     if (moved) scene_.set_where(n, scene_.where(other.node));
@@ -335,6 +353,7 @@ class Expansion {
 
   void finish() {
     scene_.main.routes = std::move(routes_).all();
+    values_.finish();
     if (!hidden_.empty()) {
       NodeId choice = scene_.add(nodes::Switch);
       scene_.set(choice, nodes::switch_::children, hidden_);
@@ -367,6 +386,7 @@ class Expansion {
   const ExpandProtosOptions& options_;
   PassContext& ctx_;
   Prototypes prototypes_;
+  InstanceValues values_;
   ExpansionBudget& budget_;
   RouteTable routes_;
   std::unordered_map<std::string, Known> known_;  // by Key

@@ -18,6 +18,9 @@ that shows nothing. ROUTEs of the body are copied. A ROUTE to the instance is re
 an exposedField without IS passes its events on. EXTERNPROTOs are loaded from the files they name. An instance whose
 prototype is not found stays.
 
+Values that no node of the body takes by IS, such as tags, become metadata of the instance: `Bolt { r 2 tag "B-1" }` is
+a Shape with a MetadataSet of the name "Bolt", and in it a MetadataString "tag".
+
 Nodes are shared wherever instances cannot differ. A node that no IS and no event reaches is stored once. Instances with
 equal values share their nodes, unless events can reach them. A prototype that doubles itself forty times costs forty
 nodes instead of 2^40.

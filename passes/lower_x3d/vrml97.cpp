@@ -122,6 +122,7 @@ class Vrml97Lowering {
   void foreign_fields(NodeId n) {
     const auto& t = scene_.type(n);
     if (t.kind != NodeKind::builtin && t.kind != NodeKind::script) return;
+    if (t.is_a(nodes::X3DMetadataObject)) return;  // lost as a whole
     const auto fields = scene_.copy_of_fields(n);
     for (const Value& v : fields) {
       if (scene_.is_extra(v) || t.fields[v.slot].is_own() || (t.fields[v.slot].dialects & in_vrml97)) continue;
