@@ -5,6 +5,7 @@
 #include "scenegraph/dangling_links.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -19,6 +20,7 @@ class Pruning {
       for (auto& r : s.routes) kept_[r.from.value] = kept_[r.to.value] = 1;
       for (auto& e : s.exports) kept_[e.node.value] = 1;
     });
+    keep_libraries();
     // Children first, so that a group of empty groups goes as a whole.
     for (auto n = order_.rbegin(); n != order_.rend(); ++n) prune_children(*n);
     auto before = scene_.main.roots.size();
@@ -29,11 +31,31 @@ class Pruning {
   }
 
  private:
+  bool shows_nothing(NodeId n) const { return scene_.is(n, nodes::Shape) && !scene_.get(n, nodes::shape::geometry); }
+
+  /// Exporters define their materials in Shapes without geometry: those with names or tags that nothing else holds.
+  void keep_libraries() {
+    std::vector<NodeId> empty;
+    std::ranges::copy_if(order_, std::back_inserter(empty), [&](NodeId n) { return shows_nothing(n); });
+    if (empty.empty()) return;
+    std::vector<char> seen(scene_.node_count());
+    for (NodeId n : empty) seen[n.value] = 1;
+    std::vector<NodeId> elsewhere;
+    for_each_scope(scene_, [&](const Scope& s) { reach(scene_, s.roots, seen, elsewhere); });
+    for (NodeId n : empty) {
+      std::vector<NodeId> held, below;
+      for_each_child(scene_, n, [&](NodeId c) { held.push_back(c); });
+      reach(scene_, held, seen, below);
+      const auto says = [&](NodeId c) { return !scene_.name(c).empty() || has_tags(scene_, c); };
+      if (std::ranges::any_of(below, says)) kept_[n.value] = 1;
+    }
+  }
+
   bool useless(NodeId n) const {
     if (!n || kept_[n.value] || !scene_.name(n).empty()) return false;
     for (auto& v : scene_.fields(n))
-      if (scene_.content(v).is || scene_.is_extra(v)) return false;
-    if (scene_.is(n, nodes::Shape)) return !scene_.get(n, nodes::shape::geometry);
+      if (scene_.content(v).is || is_tag(scene_, n, v)) return false;
+    if (scene_.is(n, nodes::Shape)) return shows_nothing(n);
     if (scene_.is(n, nodes::Collision) && scene_.get(n, nodes::collision::proxy))
       return false;  // not seen, but in the way
     return is_group(n) && hierarchy_children(scene_, n).empty();

@@ -11,8 +11,9 @@ that refer to nodes which are no longer in the scene.
 
     Group { children [ Shape { } Group { } DEF A Group { } ] }   ->   Group { children DEF A Group { } }
 
-Nodes with a DEF name stay. So do nodes that a ROUTE uses, and children of a Switch or LOD, which are addressed by
-number. Cost: linear.)";
+Nodes with a DEF name, metadata or unknown fields stay, and so do Shapes that alone hold such a node, as a library of
+materials does. So do nodes that a ROUTE uses, and children of a Switch or LOD, which are addressed by number. Cost:
+linear.)";
 
   void fields(auto&&) {}
 };
