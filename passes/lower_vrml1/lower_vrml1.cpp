@@ -27,6 +27,7 @@ constexpr std::string_view cameras = "Cameras";  // the Switch of that name hold
 void Lowering::run() {
   legal_names();
   const auto names = names_in_use();
+  report_unknown_fields();
   Frame frame;
   State state;
   for (NodeId n : scene_.main.roots) visit(n, state, frame);
@@ -67,6 +68,20 @@ void Lowering::report_lost(std::span<const std::string_view> names_before) {
   TextList lost;
   for (const auto name : names_before)
     if (known.insert(name).second) lost.add(name);
+  if (!lost.empty()) diag_.report(Diag::names_lost, {}, "lower-vrml1", lost.count(), lost.text());
+}
+
+/// Nodes of VRML 1.0 become others, which have no place for them.
+void Lowering::report_unknown_fields() {
+  TextList lost;
+  for (NodeId n : reachable(scene_, scene_.main)) {
+    const NodeId base = scene_.type(n).kind == NodeKind::unknown ? known_base(n) : n;
+    if (!scene_.is(base, nodes::Vrml1Node)) continue;
+    for (const Value& v : scene_.fields(n))
+      if (scene_.is_extra(v) && !v.extra->value.is && v.extra->name != "isA" &&
+          !scene_.type(base).find(v.extra->name, Dialect::vrml1))
+        lost.add(std::string(scene_.type(n).name) + "." + std::string(v.extra->name));
+  }
   if (!lost.empty()) diag_.report(Diag::names_lost, {}, "lower-vrml1", lost.count(), lost.text());
 }
 

@@ -59,6 +59,7 @@ class Lowering {
   void legal_names();
   std::vector<std::string_view> names_in_use() const;
   void report_lost(std::span<const std::string_view> names_before);
+  void report_unknown_fields();
   /// False when there is too much that comes again, which is reported once. What comes for the first time is always
   /// done.
   bool step(NodeId n);
@@ -80,6 +81,7 @@ class Lowering {
   NodeId known_base(NodeId unknown);
   void visit_other(NodeId n, State&, Frame&);
   void visit_unknown(NodeId n, State&, Frame&);
+  void keep_fields(NodeId n, NodeId group);
   void visit_vrml97(NodeId n, const State&, Frame&);
   void visit_instance(NodeId n, const State&);
   NodeId vrml1_material(NodeId vrml97);

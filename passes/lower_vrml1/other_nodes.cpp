@@ -5,6 +5,7 @@
 
 #include "passes/lower_vrml1/lowering.h"
 #include "scenegraph/any_node.h"
+#include "scenegraph/metadata.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -129,7 +130,21 @@ void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
     for (NodeId c : scene_.content(v).node_span()) nodes.push_back(c);
   if (nodes.empty()) return frame.add(n);
   const Frame inner = contents(nodes, s);
-  if (NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n))) frame.add(g);
+  const NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n));
+  if (!g) return;
+  keep_fields(n, g);
+  frame.add(g);
+}
+
+/// Fields of a node that nobody knows are said of the group that it becomes.
+void Lowering::keep_fields(NodeId n, NodeId group) {
+  std::vector<NodeId> members;
+  for (const Value& v : scene_.copy_of_fields(n)) {
+    if (!scene_.is_extra(v) || v.extra->value.is || v.extra->name == "isA") continue;
+    if (const NodeId m = metadata_of(scene_, {scene_.where(n), v.extra->name}, v.extra->value)) members.push_back(m);
+  }
+  if (members.empty()) return;
+  add_metadata(scene_, group, metadata_set(scene_, {scene_.where(n), scene_.type(n).name}, members));
 }
 
 // Nodes of VRML97 stay as they are; in their children the state is that around them.
