@@ -58,7 +58,8 @@ std::pair<std::string_view, std::string_view> split(std::string_view s) {
 std::optional<std::uint16_t> slot_named(const NodeType& type, Json field) {
   if (const auto slot = type.find(field.key(), Dialect::vrml97)) return slot;
   const auto slot = type.find(field.key(), Dialect::x3d);
-  const bool may_be_unknown = field["verbatim"] || (slot && info(type.fields[*slot].type).element == Element::node);
+  const bool nodes = slot && info(type.fields[*slot].type).element == Element::node;
+  const bool may_be_unknown = field["verbatim"] || (nodes && field.key() != "metadata");
   return may_be_unknown ? std::nullopt : slot;
 }
 
@@ -260,7 +261,9 @@ std::optional<Value> Extras::unknown(Json j, Children& children) {
   if (j["verbatim"].is_text() || j["IS"].is_text()) return value(FieldType::verbatim, 0, j, children);
   if (j.is_array()) return nodes(FieldType::MFNode, 0, j, children);
   if (j.is_object()) return nodes(FieldType::SFNode, 0, j, children);
-  return j.is_text() ? std::optional(c_.scene.make(FieldType::verbatim, 0, j.text())) : std::nullopt;
+  if (j.is_text()) return c_.scene.make(FieldType::verbatim, 0, j.text());
+  const bool is_child = j && !j.is_number() && !j.is_boolean();  // null
+  return is_child && !children.empty() ? std::optional(nodes(FieldType::SFNode, 0, j, children)) : std::nullopt;
 }
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
@@ -274,18 +277,30 @@ void Extras::fields(NodeId n, Json all, Children& children) {
       is_proto ? proto_values(n, f) : declare_fields(n, f);
       continue;
     }
-    auto slot = slot_named(c_.scene.type(n), f);
-    if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) {
-      bad(f, "a field");
-      continue;
-    }
-    if (!slot) owner_ = {};  // what has no slot cannot be filled in later
-    auto v = slot ? value(c_.scene.type(n).fields[*slot].type, *slot, f, children) : unknown(f, children);
-    owner_ = n;
-    if (!v)
-      bad(f, std::string(c_.scene.type(n).name) + "." + std::string(f.key()));
-    else
-      c_.scene.set(n, slot ? *v : c_.scene.make_extra(f.key(), *v));
+    field(n, f, children);
+  }
+  owner_ = outer;
+}
+
+void Extras::field(NodeId n, Json f, Children& children) {
+  auto slot = slot_named(c_.scene.type(n), f);
+  if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) return bad(f, "a field");
+  if (!slot) owner_ = {};  // what has no slot cannot be filled in later
+  auto v = slot ? value(c_.scene.type(n).fields[*slot].type, *slot, f, children) : unknown(f, children);
+  owner_ = n;
+  if (!v)
+    bad(f, std::string(c_.scene.type(n).name) + "." + std::string(f.key()));
+  else
+    c_.scene.set(n, slot ? *v : c_.scene.make_extra(f.key(), *v));
+}
+
+void Extras::tags(NodeId n, Json all) {
+  const NodeId outer = std::exchange(owner_, n);
+  Children none_;
+  for (Json f : all.is_object() ? all : Json()) {
+    if (f.key() == "DEF" || f.key() == "USE" || f.key() == "interface") continue;
+    const bool known = c_.scene.type(n).find(f.key(), Dialect::x3d) || c_.scene.type(n).find(f.key(), Dialect::vrml97);
+    if (f.key() == "metadata" || !known) field(n, f, none_);
   }
   owner_ = outer;
 }

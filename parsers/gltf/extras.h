@@ -27,6 +27,8 @@ class Extras {
   }
   /// Those alone that hold no nodes.
   void plain_fields(NodeId n, Json fields);
+  /// Those alone that only say something of the node: metadata, and fields that its type does not have.
+  void tags(NodeId n, Json fields);
   /// Makes a node known under its name.
   void define(NodeId n);
   NodeId named(std::string_view name) const;
@@ -47,6 +49,7 @@ class Extras {
   };
   using Names = std::unordered_map<std::string, NodeId>;
 
+  void field(NodeId, Json, Children&);
   NodeId reference(Json, Children&);
   NodeId use(Json fields);
   std::optional<Value> value(FieldType, std::uint16_t slot, Json, Children&);

@@ -186,6 +186,12 @@ void Hierarchy::report(Json json) { c_.lost.keep(c_.file, json); }
 NodeId Hierarchy::kept(std::uint32_t n, Json fields, const TransformFields& place, Nodes below) {
   const Json json = c_.file.at(Table::nodes, n);
   const TypeId type = extras_.type(fields.key(), fields);
+  if (!c_.file.is_whole() && json["mesh"] && is_said_by_gltf(type)) {
+    // Of a file of facts only what is said of the node; where it stands may be that of several nodes of VRML.
+    const NodeId node = implied(n, place, std::move(below));
+    if (node) extras_.tags(node, fields);
+    return node;
+  }
   NodeId made = c_.add(type, fields);
   const bool viewpoint = type == nodes::Viewpoint || type == nodes::OrthoViewpoint, shape_ = type == nodes::Shape;
   if (shape_) {
@@ -300,7 +306,7 @@ Hierarchy::Nodes Hierarchy::shapes(std::uint32_t n, const TransformFields& place
   auto mesh = c_.file.index(Table::meshes, json["mesh"]);
   if (mesh == none) return {};
   Pose p = pose(n);
-  if (c_.file.is_own() && vrml97(json)["Shape"]) p.origin = place.translation;
+  if (c_.file.is_whole() && vrml97(json)["Shape"]) p.origin = place.translation;
   Nodes out;
   PartGroups apart;
   auto& groups = place.is_identity() && part_groups_ ? *part_groups_ : apart;

@@ -160,6 +160,7 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
     if (const Json cutoff = m["alphaCutoff"])
       c_.scene.set(look.appearance, nodes::appearance::alphaCutoff, cutoff.number(0.5));
   }
+  if (c_.file.is_own()) extras_.tags(look.appearance, extras["Appearance"]);
   if (s.light) set_light(look.appearance, m);
   c_.set_name(look.appearance, name);
   look.appearance = same_named(look.appearance, nodes::Appearance);
@@ -328,6 +329,7 @@ NodeId Materials::texture_transform(Json info, SurfaceKind s, Look& look) {
   if (!said || a == TexcoordMap{}) return {};
   const NodeId n = transform_node(a, said);
   if (!n) look.bake = a;
+  if (n && c_.file.is_own()) extras_.tags(n, kept);
   return n;
 }
 

@@ -104,6 +104,7 @@ std::optional<Meshes::Part> Meshes::part(const Primitive& p, const Pose& how) {
     geometry = foreign(p, s, look);
     if (!geometry) return std::nullopt;
     if (c_.file.is_own()) name_attributes(geometry, kept);
+    if (c_.file.is_own()) extras_.tags(geometry, kept[c_.scene.type(geometry).name]);
     if (!c_.file.is_own()) report_lost(p, sets);
   }
   if (p.mesh["primitives"].elements().size() == 1) c_.set_name(geometry, p.mesh["name"]);
@@ -365,6 +366,7 @@ NodeId Meshes::own(const Primitive& p, Streams& s, const Look& look) {
         name_attribute(c_.scene.value(n, *slot).node, f);
     }
   extras_.plain_fields(n, fields);
+  extras_.tags(n, fields);
   return n;
 }
 
@@ -388,7 +390,11 @@ void Meshes::name_attributes(NodeId n, Json kept) {
         slot && info(c_.scene.type(n).fields[*slot].type).element == Element::node) {
       NodeId a = c_.scene.value(n, *slot).node;
       const auto name = f.is_object() && f.begin() != f.end() ? (*f.begin())["DEF"].text() : std::string_view();
-      if (!a || name.empty()) continue;
+      if (!a) continue;
+      if (name.empty()) {
+        extras_.tags(a, f.is_object() ? *f.begin() : Json());
+        continue;
+      }
       // Equal values are one node here, but two names are two.
       if (const auto other = c_.scene.name(a); !other.empty() && other != name) {
         const auto values = c_.scene.copy_of_fields(a);
@@ -404,6 +410,7 @@ void Meshes::name_attributes(NodeId n, Json kept) {
 void Meshes::name_attribute(NodeId n, Json kept) {
   if (!n || kept.begin() == kept.end() || !kept.is_object()) return;
   c_.set_name(n, (*kept.begin())["DEF"]);
+  extras_.tags(n, *kept.begin());
   extras_.define(n);
 }
 

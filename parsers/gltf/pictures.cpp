@@ -37,6 +37,7 @@ NodeId Materials::make_texture(Json t) {
   const auto sampler_index = c_.file.index(Table::samplers, t["sampler"]);
   if (sampler_index != none) set_sampler(n, c_.file.at(Table::samplers, sampler_index));
   c_.set_name(n, t["name"]);
+  if (c_.file.is_own()) extras_.tags(n, extras[c_.scene.type(n).name]);
   c_.lost.keep(c_.file, t);
   return n;
 }

@@ -15,6 +15,7 @@
 #include "passes/instance/share_forms.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -31,7 +32,8 @@ class Instancing {
 
   Outcome run() {
     const auto before = figures_of(scene_);
-    surfaces_ = placed_surfaces(scene_, usage_, [&](NodeId, NodeId g) { return may_share(g); });
+    surfaces_ = placed_surfaces(scene_, usage_,
+                                [&](NodeId shape, NodeId g) { return may_share(g) && can_take_metadata(shape, g); });
     scale_ = world_scales(scene_, surfaces_, ctx_.resources);
     for (std::size_t i = 0; i < surfaces_.size(); ++i) sort_in(i);
     for (const auto& g : groups_)
@@ -61,6 +63,8 @@ class Instancing {
 
   bool is_plain(NodeId n) const { return wrlkit::is_plain(scene_, usage_, n); }
   bool may_share(NodeId geometry) const;
+  bool can_take_metadata(NodeId shape, NodeId geometry) const;
+  void give_metadata_to_shapes(const ShapeSurface&);
   bool read(std::uint32_t surface, Mesh& mesh, MeshForm& form);
   void sort_in(std::size_t surface);
   bool is_worth(const Group& g) const;
@@ -94,6 +98,27 @@ bool Instancing::may_share(NodeId g) const {
   if (!plain || !faces) return plain;
   if (scene_.get(g, ifs::lightCoord) || (textured_[g.value] && !scene_.get(g, ifs::texCoord))) return false;
   return options_.scaling != Scaling::axis || scene_.get(g, ifs::normal) || scene_.get(g, ifs::creaseAngle) == 0;
+}
+
+/// What is said of a geometry is said of its Shapes once others show it, too: if they have room for it.
+bool Instancing::can_take_metadata(NodeId shape, NodeId geometry) const {
+  bool any_below = false;
+  for_each_child(scene_, geometry,
+                 [&](NodeId c) { any_below |= has_tags(scene_, c) && !scene_.is(c, nodes::X3DMetadataObject); });
+  if (any_below) return false;
+  const auto fields = scene_.fields(geometry);
+  if (std::ranges::any_of(fields, [&](const Value& v) { return scene_.is_extra(v); })) return false;
+  return !has_tags(scene_, geometry) || !scene_.get(shape, nodes::shape::metadata);
+}
+
+void Instancing::give_metadata_to_shapes(const ShapeSurface& surface) {
+  if (!has_tags(scene_, surface.geometry)) return;
+  const auto fields = scene_.copy_of_fields(surface.geometry);
+  for (const Value& v : fields) {
+    if (!is_tag(scene_, surface.geometry, v)) continue;
+    for (NodeId shape : surface.shapes) scene_.set(shape, nodes::shape::metadata, v.node);
+    scene_.unset(surface.geometry, v.slot);
+  }
 }
 
 bool Instancing::read(std::uint32_t surface, Mesh& mesh, MeshForm& form) {
@@ -145,8 +170,10 @@ void Instancing::share(const Group& g) {
   Vec3 by{};
   if (far)
     for (std::size_t k = 0; k < 3; ++k) by[k] = std::round(g.centre[k]);
+  give_metadata_to_shapes(first);
   for (const Copy& c : g.copies) {
     const ShapeSurface& copy = surfaces_[c.surface];
+    give_metadata_to_shapes(copy);
     TransformFields where = c.where;
     if (far) {
       const Vec3 moved = matrix_of(where).point(by);

@@ -12,6 +12,7 @@
 #include "passes/instance/unit_form.h"
 #include "scenegraph/child_lists.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/transform.h"
 #include "scenegraph/walk.h"
 
@@ -51,7 +52,7 @@ class Sharing {
 
  private:
   bool may_share(NodeId g) const {
-    if (textured_[g.value] || !is_plain(scene_, usage_, g)) return false;
+    if (textured_[g.value] || !is_plain(scene_, usage_, g) || has_tags(scene_, g)) return false;
     bool alone = true;
     for_each_child(scene_, g, [&](NodeId) { alone = false; });
     return alone && read_form(scene_, g);

@@ -10,6 +10,7 @@
 #include "geometry/geometry.h"
 #include "passes/analysis/figures.h"
 #include "passes/analysis/representatives.h"
+#include "passes/analysis/tag_watch.h"
 #include "passes/merge/cells.h"
 #include "passes/merge/gltf_cost.h"
 #include "passes/merge/named_mesh.h"
@@ -59,7 +60,9 @@ class Merging {
         still_(scene, usage_, options.parts) {}
 
   Outcome run() {
+    const TagWatch tags(scene_);
     const Outcome out = merge();
+    if (out == Outcome::changed) tags.report_lost(scene_, "merge", ctx_.diag);
     hand_in_csv();
     return out;
   }

@@ -10,6 +10,7 @@
 #include "scenegraph/equal.h"
 #include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::gltf {
@@ -160,7 +161,8 @@ bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
   if (scene_.is_extra(v) || info(v.type).element != Element::node) return true;
   const auto field = scene_.type(n).fields[v.slot].name;
   if (field == "metadata" && features_of(scene_, n)) return false;  // feature ids give it
-  return !v.node_span().empty() && ((field != "coord" && field != "color") || !name(v.node).empty());
+  if (v.node_span().empty()) return false;
+  return (field != "coord" && field != "color") || !name(v.node).empty() || is_tagged_child(v);
 }
 
 bool Extras::geometry_says_more(NodeId n) const {
@@ -188,59 +190,92 @@ bool Extras::is_named_child(const Value& v) const {
          !said_names_.contains(std::string(name(v.node)));
 }
 
-bool Extras::has_names_in_geometry(NodeId n, std::span<const std::string_view> without) const {
-  return std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
-    return is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end();
-  });
+/// Of a single node in a field that has tags of its own.
+bool Extras::is_tagged_child(const Value& v) const {
+  return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node &&
+         !scene_.is(v.node, nodes::X3DMetadataObject) && has_tags(scene_, v.node);
 }
 
-void Extras::names_in_geometry(JsonOut& json, NodeId n, std::span<const std::string_view> without) {
-  json.object(scene_.type(n).name, [&] {
-    for (const Value& v : scene_.fields(n))
-      if (is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end()) {
-        geometry_field(json, n, v);
-        said_names_.emplace(name(v.node));
-      }
-  });
-}
-
-bool Extras::has_names_below(NodeId n, std::size_t depth) const {
-  return depth > 0 && std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
-           return is_named_child(v) || (!scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node &&
-                                        has_names_below(v.node, depth - 1));
+bool Extras::has_facts_of_geometry(NodeId n, std::span<const std::string_view> without) const {
+  return has_tags(scene_, n) || std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
+           return is_tagged_child(v) ||
+                  (is_named_child(v) &&
+                   std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end());
          });
 }
 
-void Extras::names_below(JsonOut& json, NodeId n, std::size_t depth) {
+void Extras::facts_of_geometry(JsonOut& json, NodeId n, std::span<const std::string_view> without) {
+  json.object(scene_.type(n).name, [&] {
+    tag_fields(json, n);
+    for (const Value& v : scene_.fields(n)) {
+      const bool named =
+          is_named_child(v) && std::ranges::find(without, scene_.type(n).fields[v.slot].name) == without.end();
+      if (!named && !is_tagged_child(v)) continue;
+      geometry_field(json, n, v);
+      said_names_.emplace(name(v.node));
+    }
+  });
+}
+
+bool Extras::has_facts_below(NodeId n, std::size_t depth) const {
+  return has_tags(scene_, n) ||
+         (depth > 0 && std::ranges::any_of(scene_.fields(n), [&](const Value& v) {
+            return is_named_child(v) ||
+                   (!scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node &&
+                    !scene_.is(v.node, nodes::X3DMetadataObject) && has_facts_below(v.node, depth - 1));
+          }));
+}
+
+void Extras::facts_below(JsonOut& json, NodeId n, std::size_t depth) {
+  tag_fields(json, n);
+  if (depth == 0) return;
   for (const Value& v : scene_.fields(n)) {
-    if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node) continue;
+    if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node || is_tag(scene_, n, v)) continue;
     const bool named = is_named_child(v);
-    if (!named && !has_names_below(v.node, depth - 1)) continue;
+    if (!named && !has_facts_below(v.node, depth - 1)) continue;
     json.object(scene_.type(n).fields[v.slot].name_in(Dialect::vrml97), [&] {
       json.object(scene_.type(v.node).name, [&] {
         if (named) {
           json.member("DEF", name(v.node));
           said_names_.emplace(name(v.node));
         }
-        if (depth > 1) names_below(json, v.node, depth - 1);
+        facts_below(json, v.node, depth - 1);
       });
     });
   }
 }
 
-bool Extras::has_unseen_names(NodeId shape) const { return !shown(shape) && has_names_below(shape, depth_of_names); }
+bool Extras::has_unseen_facts(NodeId shape) const { return !shown(shape) && has_facts_below(shape, depth_of_names); }
 
-void Extras::unseen_names(JsonOut& json, NodeId shape) {
-  json.object("vrml97", [&] { json.object("Shape", [&] { names_below(json, shape, depth_of_names); }); });
+void Extras::unseen_facts(JsonOut& json, NodeId shape) {
+  json.object("vrml97", [&] { json.object("Shape", [&] { facts_below(json, shape, depth_of_names); }); });
+}
+
+void Extras::tags(JsonOut& json, NodeId n, bool with_name) {
+  // Without its other fields a Switch or LOD would show something else.
+  const bool chooses = scene_.is(n, nodes::Switch) || scene_.is(n, nodes::LOD);
+  json.object(chooses ? "Group" : scene_.type(n).name, [&] {
+    if (with_name) json.member("DEF", name(n));
+    tag_fields(json, n);
+  });
+}
+
+void Extras::tag_fields(JsonOut& json, NodeId n) {
+  for (const Value& v : scene_.fields(n)) {
+    if (!is_tag(scene_, n, v)) continue;
+    json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
+    value(json, scene_.content(v), 0);
+  }
 }
 
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
-  if (scene_.is_extra(v) || info(v.type).element != Element::node || info(v.type).multiple)
-    return value(json, scene_.content(v), 0);
+  const bool one_node = !is_tag(scene_, n, v) && v.type == FieldType::SFNode;
+  if (!one_node || scene_.type(v.node).kind == NodeKind::unknown) return value(json, scene_.content(v), 0);
   json.object([&] {
     json.object(scene_.type(v.node).name, [&] {
       if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
+      tag_fields(json, v.node);
     });
   });
 }

@@ -68,6 +68,10 @@ class Extras {
   void vrml97(JsonOut&, NodeId, Said said, bool with_name = false);
   /// The member extras: {vrml97: ...} of an object.
   void member(JsonOut&, NodeId, Said said);
+  /// The member Type: {fields} of an object, with nothing but its tags (scenegraph/tags.h) and, `with_name`, its name.
+  void tags(JsonOut&, NodeId, bool with_name = false);
+  /// Those as members of an object.
+  void tag_fields(JsonOut&, NodeId);
   /// The member extras: {wrlkit: {Type: {fields}}} of a form with fields of our own (scenegraph/nodes/wrlkit.nodes).
   void form(JsonOut&, NodeId);
   /// The member vrml97: {Type: {fields}, polygons}: what the vertices of an IndexedFaceSet, IndexedLineSet or PointSet
@@ -77,12 +81,12 @@ class Extras {
   void geometry(JsonOut&, NodeId, std::span<const std::uint32_t> polygons, double step);
   /// Is there anything of that?
   bool geometry_says_more(NodeId) const;
-  /// The same with names only: of Coordinates and the like, but for some fields; and of all that is in a Shape
-  /// that shows nothing.
-  void names_in_geometry(JsonOut&, NodeId, std::span<const std::string_view> without);
-  bool has_names_in_geometry(NodeId, std::span<const std::string_view> without) const;
-  void unseen_names(JsonOut&, NodeId shape);
-  bool has_unseen_names(NodeId shape) const;
+  /// The same with tags and names only: of the geometry, and of Coordinates and the like, but for names in some fields;
+  /// and of all that is in a Shape that shows nothing.
+  void facts_of_geometry(JsonOut&, NodeId, std::span<const std::string_view> without);
+  bool has_facts_of_geometry(NodeId, std::span<const std::string_view> without) const;
+  void unseen_facts(JsonOut&, NodeId shape);
+  bool has_unseen_facts(NodeId shape) const;
   /// The member protos of an object: declarations, and those in their bodies behind them. Each is {PROTO: name, in,
   /// interface, body, routes} or {EXTERNPROTO: name, in, interface, url}.
   void protos(JsonOut&, std::span<const ProtoId>);
@@ -107,8 +111,9 @@ class Extras {
   bool adds_to_vertices(NodeId geometry, const Value&) const;
   static constexpr std::size_t depth_of_names = 3;  // of a Material in an Appearance in a Shape
   bool is_named_child(const Value&) const;
-  bool has_names_below(NodeId, std::size_t depth) const;
-  void names_below(JsonOut&, NodeId, std::size_t depth);
+  bool is_tagged_child(const Value&) const;
+  bool has_facts_below(NodeId, std::size_t depth) const;
+  void facts_below(JsonOut&, NodeId, std::size_t depth);
   void geometry_field(JsonOut&, NodeId, const Value&);
   bool speaks(NodeId, const Value&, Said) const;
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);

@@ -4,6 +4,7 @@
 
 #include "base/text/letter_case.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "writers/gltf/color.h"
 
 namespace wrlkit::gltf {
@@ -108,7 +109,9 @@ TextureUse Textures::make(NodeId n, const Loaded& loaded, TextureSampler sampler
   if (loaded.picture == none) return {};
   auto s = static_cast<std::uint32_t>(std::ranges::find(samplers_, sampler) - samplers_.begin());
   if (s == samplers_.size()) samplers_.push_back(sampler);
+  const bool tagged = has_tags(scene_, n);
   auto same = [&](const Texture& t) {
+    if (t.source != n && (tagged || has_tags(scene_, t.source))) return false;
     return t.picture == loaded.picture && t.sampler == s && scene_.name(t.source) == scene_.name(n);
   };
   // Few textures share a picture, and those that do were made close together.

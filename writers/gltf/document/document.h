@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "writers/gltf/box.h"
@@ -55,6 +56,7 @@ struct Document {
   std::optional<Sky> sky;
   std::optional<Vec3> origin;  // what was subtracted from all coordinates
   NodeId navigation_info, world_info;
+  std::vector<std::pair<std::uint32_t, NodeId>> tagged_rows;  // of the table of parts: nodes that have become them
 
   std::span<const std::uint32_t> children_of(const Node& n) const {
     return {children.data() + n.first_child, n.n_children};

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "writers/gltf/document/place_tables.h"
 
 namespace wrlkit::gltf {
@@ -71,7 +72,8 @@ struct Tables {
   std::vector<std::uint32_t> in_root;
 };
 
-Tables add_tables(Document& d, const Scene& scene, PartTable& parts, const Family& family, const Stays& stays) {
+Tables add_tables(Document& d, const Makers& m, PartTable& parts, const Family& family, const Stays& stays) {
+  const Scene& scene = m.scene;
   const std::size_t n_nodes = d.nodes.size();
   Tables out{std::vector<std::vector<std::uint32_t>>(n_nodes), {}};
   std::vector<std::uint32_t> row(n_nodes, none), holder(n_nodes, none);
@@ -88,7 +90,9 @@ Tables add_tables(Document& d, const Scene& scene, PartTable& parts, const Famil
       row[id] = row[above];
     }
     // What is empty but has a name is a row, too.
-    if (n.source && !scene.name(n.source).empty()) row[id] = parts.of_node(scene.name(n.source), row[id]);
+    const bool tagged = m.extras && has_tags(scene, n.source);
+    if (n.source && (tagged || !scene.name(n.source).empty())) row[id] = parts.of_node(scene.name(n.source), row[id]);
+    if (tagged) d.tagged_rows.emplace_back(row[id], n.source);
     if (n.attachment != Attachment::mesh) continue;
     const auto [at, is_new] =
         known.try_emplace({holder[id], n.attached}, static_cast<std::uint32_t>(d.instances.size()));
@@ -111,7 +115,7 @@ void make_part_rows(Document& d, const Makers& m, PartTable& parts) {
   const Family family = family_of(d);
   const auto stays = find_nodes_that_stay(d, m, family);
   if (!stays) return;
-  const Tables tables = add_tables(d, m.scene, parts, family, *stays);
+  const Tables tables = add_tables(d, m, parts, family, *stays);
   std::vector<Mark> marks(d.nodes.size(), Mark::nothing);
   std::vector<std::uint32_t> children;
   for (std::size_t id = 0; id < stays->node.size(); ++id) {

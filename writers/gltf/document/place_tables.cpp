@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -73,7 +74,8 @@ bool only_places_a_mesh(const Makers& m, const Node& n, const Trs& t, double gro
   // Renderers make instances of triangles only.
   if (g.morph != none || g.features != none || g.mode != Mode::triangles) return false;
   if (!fits(t.translation, growth) || !fits(t.scale, 1) || !(t.scale[0] * t.scale[1] * t.scale[2] > 0)) return false;
-  if (!m.keeps_everything()) return true;
+  const bool table = m.options.names == GltfOptions::Names::table;  // tags stand with its rows
+  if (!m.keeps_everything()) return table || !m.extras || !has_tags(m.scene, n.source);
   return n.same_as == none && !m.extras->is_routed(n.source) &&
          !m.extras->says_more(n.source, t.identity() ? nodes::Shape : nodes::Transform, n.plain);
 }

@@ -1,5 +1,6 @@
 #include "writers/gltf/json/lists.h"
 
+#include "scenegraph/tags.h"
 #include "writers/gltf/json/part.h"
 
 namespace wrlkit::gltf {
@@ -22,6 +23,8 @@ class BufferJson : public JsonPart {
       else
         json_.member("source", t.picture);
       if (p_.extras && !p_.facts_only) p_.extras->member(json_, t.source, said_by_texture(p_.scene, t.source));
+      if (p_.extras && p_.facts_only && has_tags(p_.scene, t.source))
+        json_.object("extras", [&] { json_.object("vrml97", [&] { p_.extras->tags(json_, t.source); }); });
     });
   }
 

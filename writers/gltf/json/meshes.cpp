@@ -43,16 +43,16 @@ class MeshJson : public JsonPart {
         if (g.features != none) mesh_features(g);
       });
       json_.end_array();
-      if (p_.extras && p_.facts_only && p_.extras->has_names_in_geometry(g.source, names_without(m, s)))
-        mesh_names(g.source, names_without(m, s));
+      if (p_.extras && p_.facts_only && p_.extras->has_facts_of_geometry(g.source, names_without(m, s)))
+        mesh_facts(g.source, names_without(m, s));
       if (p_.extras && !p_.facts_only) mesh_extras(g, s.draco == none, p_.packing.dequantization(m));
     });
   }
 
  private:
-  void mesh_names(NodeId geometry, const std::vector<std::string_view>& without) {
+  void mesh_facts(NodeId geometry, const std::vector<std::string_view>& without) {
     json_.object("extras",
-                 [&] { json_.object("vrml97", [&] { p_.extras->names_in_geometry(json_, geometry, without); }); });
+                 [&] { json_.object("vrml97", [&] { p_.extras->facts_of_geometry(json_, geometry, without); }); });
   }
 
   /// Fields whose values no accessor has, so that a name would be that of nothing.

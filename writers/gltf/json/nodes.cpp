@@ -5,6 +5,7 @@
 #include <set>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "writers/gltf/json/part.h"
 
 namespace wrlkit::gltf {
@@ -46,7 +47,7 @@ class NodeJson : public JsonPart {
     const auto& main = p_.scene.main;
     const bool protos = !main.protos.empty() && !p_.facts_only;  // what they made is there
     if (!d_.navigation_info && !d_.origin && main.routes.empty() && !protos && main.imports.empty() &&
-        main.exports.empty())
+        main.exports.empty() && d_.tagged_rows.empty())
       return;
     json_.object("extras", [&] {
       json_.object("vrml97", [&] {
@@ -60,7 +61,16 @@ class NodeJson : public JsonPart {
         for (const Route& r : main.routes)
           if (!p_.facts_only || (p_.extras->is_placed(r.from) && p_.extras->is_placed(r.to))) routes.push_back(&r);
         list("routes", routes.size(), [&](std::size_t i) { p_.extras->route(json_, *routes[i]); });
+        list("parts", d_.tagged_rows.size(), [&](std::size_t i) { tagged_row(d_.tagged_rows[i]); });
       });
+    });
+  }
+
+  /// {row: 7, Transform: {metadata: ...}}: of the property table of parts.
+  void tagged_row(const std::pair<std::uint32_t, NodeId>& of) {
+    json_.object([&] {
+      json_.member("row", of.first);
+      p_.extras->tags(json_, of.second);
     });
   }
 
@@ -147,21 +157,26 @@ class NodeJson : public JsonPart {
     return stays ? nodes::Group : nodes::Transform;
   }
 
+  /// Whoever reads facts alone finds them wherever the node is.
+  std::uint32_t same_as(const Node& n) const { return p_.facts_only ? none : n.same_as; }
+
   void node_extras(const Node& n, std::uint32_t id) {
     bool vrml97 =
         p_.extras && (p_.facts_only ? is_fact(n)
-                                    : !n.source || n.same_as != none ||
+                                    : !n.source || same_as(n) != none ||
                                           p_.extras->says_more(n.source, implied(n), n.plain) || named_as_described(n));
     bool coverage = n.lod && !d_.lods.at(id).coverage.empty();
     const bool unseen = p_.extras && p_.facts_only && !vrml97 && n.source && n.attachment == Attachment::nothing &&
-                        p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_names(n.source);
-    if (!vrml97 && !coverage && !unseen) return;
+                        p_.scene.is(n.source, nodes::Shape) && p_.extras->has_unseen_facts(n.source);
+    const bool tagged = p_.extras && p_.facts_only && !vrml97 && !unseen && has_tags(p_.scene, n.source);
+    if (!vrml97 && !coverage && !unseen && !tagged) return;
     json_.object("extras", [&] {
       if (coverage) json_.member("MSFT_screencoverage", std::span(d_.lods.at(id).coverage));
-      if (unseen) p_.extras->unseen_names(json_, n.source);
-      if (vrml97 && (!n.source || n.same_as != none)) {
+      if (unseen) p_.extras->unseen_facts(json_, n.source);
+      if (tagged) json_.object("vrml97", [&] { p_.extras->tags(json_, n.source); });
+      if (vrml97 && (!n.source || same_as(n) != none)) {
         json_.object("vrml97", [&] {
-          if (n.source) json_.member("USE", n.same_as);
+          if (n.source) json_.member("USE", same_as(n));
           if (n.attachment == Attachment::mesh && !n.source) {
             json_.member("Shape", JsonText{"{}"});
           }
@@ -174,7 +189,7 @@ class NodeJson : public JsonPart {
 
   /// What a reader other than wrlkit may want to know: the whole of what glTF has no node for, links and descriptions.
   bool is_fact(const Node& n) const {
-    if (!n.source || n.same_as != none || p_.scene.is(n.source, nodes::Switch) || p_.scene.is(n.source, nodes::LOD))
+    if (!n.source || same_as(n) != none || p_.scene.is(n.source, nodes::Switch) || p_.scene.is(n.source, nodes::LOD))
       return false;
     const bool group = p_.scene.is(n.source, nodes::X3DGroupingNode) && !p_.scene.is(n.source, nodes::Anchor) &&
                        !p_.scene.is(n.source, nodes::Billboard);
