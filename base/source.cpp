@@ -17,13 +17,29 @@ bool ends_line(std::string_view t, std::size_t i) {
 
 }  // namespace
 
-std::uint32_t Sources::add(std::string name, std::size_t size, Reload reload) {
-  std::uint64_t begin = sources_.empty() ? 0 : std::uint64_t{sources_.back().begin} + sources_.back().size + 1;
+std::uint32_t Sources::add(std::string name, std::size_t size, Reload reload, bool in_memory) {
+  const std::uint64_t begin = end();
   if (begin + size >= Span::nowhere) return Span::nowhere;
   loaded_from_ = nullptr;  // sources_ may move
-  sources_.push_back(
-      {std::move(name), static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(size), std::move(reload)});
+  sources_.push_back({std::move(name), static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(size),
+                      std::move(reload), in_memory});
   return static_cast<std::uint32_t>(begin);
+}
+
+std::uint32_t Sources::add_all(const std::shared_ptr<const Sources>& other) {
+  if (!other || other.get() == this || other->sources_.empty()) return 0;
+  const std::size_t n = other->sources_.size();
+  for (const Added& known : added_)
+    if (known.from == other && known.n == n) return known.shift;
+  const std::uint64_t shift = end();
+  if (shift + other->end() >= Span::nowhere) return Span::nowhere;
+  loaded_from_ = nullptr;
+  for (Source source : other->sources_) {
+    source.begin += static_cast<std::uint32_t>(shift);
+    sources_.push_back(std::move(source));
+  }
+  added_.push_back({other, n, static_cast<std::uint32_t>(shift)});
+  return static_cast<std::uint32_t>(shift);
 }
 
 const Sources::Source* Sources::find(std::uint32_t offset) const {
@@ -34,6 +50,11 @@ const Sources::Source* Sources::find(std::uint32_t offset) const {
 std::string_view Sources::file(std::uint32_t offset) const {
   auto* s = find(offset);
   return s ? std::string_view(s->name) : std::string_view{};
+}
+
+bool Sources::is_in_memory(std::uint32_t offset) const {
+  auto* s = find(offset);
+  return s && s->in_memory;
 }
 
 Place Sources::locate(Span span) const {

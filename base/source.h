@@ -35,20 +35,36 @@ class Sources {
 
   /// Registers a text of that size and returns the offset of its first byte; Span::nowhere when 4 GiB are exceeded.
   /// `reload` gives the text again when a message is printed; the last text is kept for the next message.
-  std::uint32_t add(std::string name, std::size_t size, Reload reload);
+  std::uint32_t add(std::string name, std::size_t size, Reload reload, bool in_memory = false);
+  /// Registers all texts of another one, once, and returns what is to be added to its offsets; Span::nowhere when 4 GiB
+  /// are exceeded.
+  std::uint32_t add_all(const std::shared_ptr<const Sources>& other);
   /// File, line, column and excerpt of a span. O(text).
   Place locate(Span) const;
   /// Name of the file that an offset lies in; empty when it lies in none.
   std::string_view file(std::uint32_t offset) const;
+  /// Whether that is only a name: the text was given as bytes, which have no folder.
+  bool is_in_memory(std::uint32_t offset) const;
 
  private:
   struct Source {
     std::string name;
     std::uint32_t begin, size;
     Reload reload;
+    bool in_memory;
+  };
+  /// As many of the texts of another one as it had then.
+  struct Added {
+    std::shared_ptr<const Sources> from;
+    std::size_t n;
+    std::uint32_t shift;
   };
   const Source* find(std::uint32_t offset) const;
+  std::uint64_t end() const {
+    return sources_.empty() ? 0 : std::uint64_t{sources_.back().begin} + sources_.back().size + 1;
+  }
   std::vector<Source> sources_;
+  std::vector<Added> added_;
   mutable const Source* loaded_from_ = nullptr;
   mutable Loaded loaded_;
 };

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <numeric>
 
 namespace wrlkit {
 
-Scene::Scene() : sources(std::make_shared<Sources>()), arena_(std::make_shared<Arena>()) {}
+Scene::Scene() : sources(std::make_shared<Sources>()) {}
 
 NodeId Scene::add(TypeId type, Span where) {
   nodes_.push_back({.type = type, .offset = where.begin});
@@ -37,7 +38,7 @@ void Scene::set_name(NodeId n, std::string_view name) {
     return;
   }
   nodes_[n.value].name = static_cast<std::uint32_t>(names_.size());
-  names_.push_back(arena_->copy(name));
+  names_.push_back(arena().copy(name));
 }
 
 const Value* Scene::find(NodeId n, std::uint16_t slot) const {
@@ -123,41 +124,52 @@ Value head(FieldType type, std::uint16_t slot, std::size_t count) {
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::span<const double> a) {
   const auto& i = info(t);
-  auto v = head(t, slot, a.size() / i.arity);
-  if (!i.multiple && i.arity == 1)
+  assert(i.element == Element::number && "numbers for a field of something else");
+  auto v = head(t, slot, i.multiple ? a.size() / i.arity : 1);
+  if (!i.multiple && i.arity == 1) {
     v.number = a.empty() ? 0 : a[0];
-  else
-    v.numbers = arena_->copy(a);
+  } else if (!i.multiple && a.size() < i.arity) {
+    double* to = arena().allocate<double>(i.arity);
+    std::fill(std::ranges::copy(a, to).out, to + i.arity, 0.0);
+    v.numbers = to;
+  } else {
+    v.numbers = arena().copy(a);
+  }
   return v;
 }
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::span<const std::int32_t> a) {
   auto v = head(t, slot, a.size());
-  v.integers = arena_->copy(a);
+  v.integers = arena().copy(a);
   return v;
 }
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::span<const std::string_view> a) {
   auto v = head(t, slot, a.size());
-  std::string_view* to = arena_->allocate<std::string_view>(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) to[i] = arena_->copy(a[i]);
+  std::string_view* to = arena().allocate<std::string_view>(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) to[i] = arena().copy(a[i]);
   v.texts = to;
   return v;
 }
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::span<const NodeId> a) {
   auto v = head(t, slot, a.size());
-  v.nodes = arena_->copy(a);
+  v.nodes = arena().copy(a);
   return v;
 }
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::string_view s) {
+  assert(info(t).element == Element::text && "text for a field of something else");
+  if (info(t).multiple) return make(t, slot, std::span<const std::string_view>(&s, 1));
   auto v = head(t, slot, s.size());
-  v.chars = arena_->copy(s).data();
+  v.chars = arena().copy(s).data();
   return v;
 }
 
 Value Scene::make(FieldType t, std::uint16_t slot, double d) {
+  const auto& i = info(t);
+  assert(i.element == Element::number && "a real number for a field of something else");
+  if (i.multiple || i.arity > 1) return make(t, slot, std::span<const double>(&d, 1));
   auto v = head(t, slot, 1);
   v.number = d;
   return v;
@@ -166,9 +178,18 @@ Value Scene::make(FieldType t, std::uint16_t slot, double d) {
 Value Scene::make(FieldType t, std::uint16_t slot, bool b) { return make(t, slot, std::int32_t{b}); }
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::int32_t i) {
+  const auto& field = info(t);
+  if (field.element == Element::number) return make(t, slot, static_cast<double>(i));
+  if (field.multiple || field.element == Element::image) return make(t, slot, std::span<const std::int32_t>(&i, 1));
   auto v = head(t, slot, 1);
   v.integer = i;
   return v;
+}
+
+Value Scene::make_whole(FieldType t, std::uint16_t slot, std::int64_t i) {
+  if (info(t).element == Element::number) return make(t, slot, static_cast<double>(i));
+  constexpr auto least = std::numeric_limits<std::int32_t>::min(), most = std::numeric_limits<std::int32_t>::max();
+  return make(t, slot, static_cast<std::int32_t>(std::clamp<std::int64_t>(i, least, most)));
 }
 
 Value Scene::make(FieldType t, std::uint16_t slot, NodeId n) {
@@ -179,19 +200,19 @@ Value Scene::make(FieldType t, std::uint16_t slot, NodeId n) {
 }
 
 Value Scene::make_extra(std::string_view name, Value content) {
-  auto* e = arena_->allocate<ExtraField>(1);
+  auto* e = arena().allocate<ExtraField>(1);
   content.slot = Value::extra_slot;
-  *e = {arena_->copy(name), content};
+  *e = {arena().copy(name), content};
   Value v = head(content.type, Value::extra_slot, 1);
   v.extra = e;
   return v;
 }
 
 TypeId Scene::add_type(NodeType t, std::span<const FieldDef> fields) {
-  t.fields = {arena_->copy(fields), fields.size()};
+  t.fields = {arena().copy(fields), fields.size()};
   t.by_name = {};
   if (fields.size() >= NodeType::many_fields) {
-    auto* slots = arena_->allocate<std::uint16_t>(fields.size());
+    auto* slots = arena().allocate<std::uint16_t>(fields.size());
     std::iota(slots, slots + fields.size(), std::uint16_t{0});
     std::stable_sort(slots, slots + fields.size(), [&](auto a, auto b) { return fields[a].name < fields[b].name; });
     t.by_name = {slots, fields.size()};
@@ -206,6 +227,7 @@ ProtoId Scene::add_proto(Proto p) {
 }
 
 Scope Scene::import(const Scene& other) {
+  if (&other == this) return import(Scene(other));
   const auto n0 = static_cast<std::uint32_t>(nodes_.size());
   const auto f0 = static_cast<std::uint32_t>(fields_.size());
   const auto name0 = static_cast<std::uint32_t>(names_.size());
@@ -226,7 +248,7 @@ Scope Scene::import(const Scene& other) {
       v.node = node(v.node);
       return v;
     }
-    NodeId* to = arena_->allocate<NodeId>(v.count);
+    NodeId* to = arena().allocate<NodeId>(v.count);
     for (std::size_t i = 0; i < v.count; ++i) to[i] = node(v.nodes[i]);
     v.nodes = to;
     return v;
@@ -241,13 +263,18 @@ Scope Scene::import(const Scene& other) {
     return o;
   };
 
-  shared_.push_back(other.arena_);
-  shared_.insert(shared_.end(), other.shared_.begin(), other.shared_.end());
+  const std::uint32_t shift = sources->add_all(other.sources);
+  auto place = [&](std::uint32_t offset) {
+    return offset == Span::nowhere || shift == Span::nowhere ? Span::nowhere : offset + shift;
+  };
+
+  arenas_.share_all(other.arenas_);
   names_.insert(names_.end(), other.names_.begin() + 1, other.names_.end());
   for (auto n : other.nodes_) {
     n.type = type(n.type);
     if (n.name) n.name += name0 - 1;
     n.first_field += f0;
+    n.offset = place(n.offset);
     nodes_.push_back(n);
   }
   for (auto& v : other.fields_) fields_.push_back(value(value, v));
@@ -260,6 +287,7 @@ Scope Scene::import(const Scene& other) {
   for (auto p : other.protos_) {
     p.type = type(p.type);
     p.body = scope(p.body);
+    p.where.begin = place(p.where.begin);
     protos_.push_back(std::move(p));
   }
   return scope(other.main);

@@ -3,12 +3,16 @@
 // held by several fields, and parents are computed when asked for (walk.h). Ids and arrays stay when nodes are added;
 // what points into the fields of a node (fields, find, value) holds until the next field is set, of whatever node.
 //
-// Copying a scene copies the pools but shares the arrays (arena.h), which are immutable.
+// Copying a scene copies the pools but shares the arrays (arena.h), which are immutable. What is added to either of the
+// two later is its own, so that they may be worked on in two threads.
 #pragma once
+#include <algorithm>
 #include <cassert>
 #include <deque>
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "base/arena.h"
@@ -63,6 +67,58 @@ struct X3dHead {
 };
 
 enum class Format : std::uint8_t { none, vrml1, vrml97, x3d_classic, x3d_xml, gltf };
+
+/// Whether a C++ value can be given to fields of a type. Numbers become those of the field: 1 is 1.0 for an SFFloat. A
+/// list may be given as its only element.
+template <FieldType T, class V>
+constexpr bool fits_field() {
+  constexpr auto& field = info(T);
+  constexpr bool is_single = !field.multiple && field.arity == 1;
+  if constexpr (field.element == Element::text)
+    return std::is_convertible_v<V, std::string_view> ||
+           (field.multiple && std::is_convertible_v<V, std::span<const std::string_view>>);
+  else if constexpr (field.element == Element::node)
+    return std::is_same_v<V, NodeId> || (field.multiple && std::is_convertible_v<V, std::span<const NodeId>>);
+  else if constexpr (field.element == Element::image)
+    return std::is_convertible_v<V, std::span<const std::int32_t>>;
+  else if constexpr (field.element == Element::integer)
+    return std::is_integral_v<V> || (field.multiple && std::is_convertible_v<V, std::span<const std::int32_t>>);
+  else if constexpr (std::is_arithmetic_v<V>)
+    return field.arity == 1 && !std::is_same_v<V, bool>;
+  else if constexpr (requires { std::tuple_size<V>::value; })  // as many numbers as an element has, or whole elements
+    return std::is_convertible_v<V, std::span<const double>> && !is_single &&
+           (field.multiple ? std::tuple_size<V>::value % field.arity == 0 : std::tuple_size<V>::value == field.arity);
+  else
+    return !is_single && std::is_convertible_v<V, std::span<const double>>;
+}
+
+/// The arrays that a scene makes, and those that it shares. A copy makes its own from then on.
+class Arenas {
+ public:
+  Arenas() = default;
+  Arenas(const Arenas& other) : shared_(other.shared_) { share(other.own_); }
+  Arenas(Arenas&&) noexcept = default;
+  Arenas& operator=(Arenas other) noexcept {
+    std::swap(own_, other.own_);
+    std::swap(shared_, other.shared_);
+    return *this;
+  }
+  ~Arenas() = default;
+
+  Arena& own() const { return *own_; }
+  void share_all(const Arenas& other) {
+    share(other.own_);
+    for (const auto& arena : other.shared_) share(arena);
+  }
+
+ private:
+  void share(const std::shared_ptr<Arena>& arena) {
+    if (arena && std::ranges::find(shared_, arena) == shared_.end()) shared_.push_back(arena);
+  }
+
+  std::shared_ptr<Arena> own_ = std::make_shared<Arena>();
+  std::vector<std::shared_ptr<Arena>> shared_;  // of what this is a copy of, and of imported scenes
+};
 
 class Scene {
  public:
@@ -124,10 +180,17 @@ class Scene {
   auto get(NodeId n, FieldKey<T> key) const;
   /// Writes a field; arrays are copied into the arena.
   void set(NodeId n, Value v);
-  /// Writes fields: keys and values in turn.
+  /// Writes fields: keys and values in turn. A value that does not fit its field does not compile.
   template <FieldType T, class V, class... More>
   void set(NodeId n, FieldKey<T> key, const V& v, const More&... more) {
-    set(n, make(T, key.slot, v));
+    static_assert(fits_field<T, std::decay_t<V>>(), "a value of another type than the field");
+    assert(type(n).fields[key.slot].name == type(key.node).fields[key.slot].name && "a key of another node type");
+    if constexpr (std::is_floating_point_v<V>)
+      set(n, make(T, key.slot, static_cast<double>(v)));
+    else if constexpr (std::is_integral_v<V> && !std::is_same_v<V, bool>)
+      set(n, make_whole(T, key.slot, static_cast<std::int64_t>(v)));
+    else
+      set(n, make(T, key.slot, v));
     if constexpr (sizeof...(more) > 0) set(n, more...);
   }
   void unset(NodeId n, std::uint16_t slot);
@@ -136,7 +199,8 @@ class Scene {
   /// Turns a node into another one in place: type and fields change, its id, name and place stay. References hold.
   void become(NodeId n, TypeId type, std::span<const Value> fields);
 
-  // Values with their arrays in this scene's arena.
+  // Values with their arrays in this scene's arena: of that type, whatever they are made of. Numbers that a value has
+  // too few of are 0, and a list that is given one element has that one.
   Value make(FieldType, std::uint16_t slot, std::span<const double>);
   Value make(FieldType, std::uint16_t slot, std::span<const std::int32_t>);
   Value make(FieldType, std::uint16_t slot, std::span<const std::string_view>);
@@ -158,8 +222,8 @@ class Scene {
   Value make(FieldType, std::uint16_t slot, NodeId);
   /// A field that the node type does not have.
   Value make_extra(std::string_view name, Value);
-  std::string_view keep(std::string_view s) { return arena_->copy(s); }
-  Arena& arena() { return *arena_; }
+  std::string_view keep(std::string_view s) { return arena().copy(s); }
+  Arena& arena() { return arenas_.own(); }
 
   // Types and prototypes of this scene.
   /// Adds a type; names and arrays in it must live in the arena or in the table.
@@ -173,10 +237,14 @@ class Scene {
   const Proto& proto(ProtoId p) const { return protos_[p.value]; }
 
   /// Takes over all nodes, types and prototypes of another scene; its arrays are shared, not copied. Returns the scope
-  /// that was `other.main`, in this scene's ids. O(nodes of other).
+  /// that was `other.main`, in this scene's ids. Its texts become sources of this scene, so that messages and relative
+  /// urls of the nodes mean the files that they were read from; whether these may be read is for the document
+  /// (Document::import). Names are not changed, nor is `main`. O(nodes of other).
   Scope import(const Scene& other);
 
  private:
+  Value make_whole(FieldType, std::uint16_t slot, std::int64_t);
+
   struct Node {
     TypeId type;
     std::uint32_t name = 0;  // into names_; 0: none
@@ -191,8 +259,7 @@ class Scene {
   std::deque<NodeType> types_;  // of this scene; TypeId = builtin_nodes().size() + index
   std::deque<Proto> protos_;
   TypeId stand_in_;  // once there is one
-  std::shared_ptr<Arena> arena_;
-  std::vector<std::shared_ptr<Arena>> shared_;  // of imported scenes
+  Arenas arenas_;
 };
 
 template <FieldType T>

@@ -1,21 +1,10 @@
 #include "scenegraph/value.h"
 
 namespace wrlkit {
-namespace {
-
-constexpr FieldTypeInfo infos[] = {
-#define WRLKIT_X(name, element, arity) {#name, Element::element, arity, #name[0] == 'M'},
-    WRLKIT_FIELD_TYPES(WRLKIT_X)
-#undef WRLKIT_X
-};
-
-}  // namespace
-
-const FieldTypeInfo& info(FieldType t) { return infos[static_cast<std::size_t>(t)]; }
 
 bool find_field_type(std::string_view name, FieldType& out) {
-  for (std::size_t i = 0; i < std::size(infos); ++i)
-    if (infos[i].name == name) {
+  for (std::size_t i = 0; i < std::size(field_type_infos); ++i)
+    if (field_type_infos[i].name == name) {
       out = static_cast<FieldType>(i);
       return true;
     }

@@ -56,7 +56,13 @@ struct FieldTypeInfo {
   bool multiple;       // MF...
 };
 
-const FieldTypeInfo& info(FieldType);
+inline constexpr FieldTypeInfo field_type_infos[] = {
+#define WRLKIT_X(name, element, arity) {#name, Element::element, arity, #name[0] == 'M'},
+    WRLKIT_FIELD_TYPES(WRLKIT_X)
+#undef WRLKIT_X
+};
+
+constexpr const FieldTypeInfo& info(FieldType t) { return field_type_infos[static_cast<std::size_t>(t)]; }
 /// The type of that name ("MFVec3f"); false when there is none.
 bool find_field_type(std::string_view name, FieldType& out);
 
