@@ -15,6 +15,7 @@ TESTS = ROOT / 'tests/text/diag'
 
 # What no file can provoke; a unit test must name the message instead.
 BY_UNIT_TESTS = {
+    'pass-failed': 'only passes that a program adds fail without a word',
     'verify': 'tells of a fault of a pass, not of a world',
     'not-finite': 'the parser has made numbers finite already; only other users of the library can meet it',
     'no-patches': 'the verbs ask first what a file is',

@@ -118,9 +118,9 @@ void Pipeline::complete(std::string_view text) {
 
 void Pipeline::meet_needs(Level level) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
-    const auto& info = *steps_[i].info;
-    if (level < info.needs) {
-      const auto reaches = std::ranges::find(passes(), info.needs, &PassInfo::leaves);
+    if (level < steps_[i].info->needs) {  // one level at a time, as level_after counts them
+      const auto next = static_cast<Level>(static_cast<int>(level) + 1);
+      const auto reaches = std::ranges::find(passes(), next, &PassInfo::leaves);
       steps_.insert(steps_.begin() + static_cast<std::ptrdiff_t>(i), Step{&*reaches, reaches->make()});
     }
     level = level_after(level, *steps_[i].info);
@@ -158,9 +158,10 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
     {
       Timer timer(options.times, std::string(steps_[i].info->name));
       if (ctx.monitor) ctx.monitor->begin(std::string(steps_[i].info->name), 0, "");
+      const auto n_said = ctx.diag.count();
       bool good = steps_[i].pass->is_mesh_pass() ? run_mesh_steps(i, next, scene, ctx)
                                                  : steps_[i].pass->run(scene, ctx) != Outcome::failed;
-      if (!good) return false;
+      if (!good) return failed(i, n_said, ctx);
     }
     const auto& done = *steps_[next - 1].info;
     if (options.verify_each && !verify(scene, level_behind(next - 1), ctx.diag)) return false;
@@ -171,9 +172,17 @@ bool Pipeline::run_steps(std::size_t begin, std::size_t end, Scene& scene, PassC
   return true;
 }
 
+/// Never without a word.
+bool Pipeline::failed(std::size_t step, std::size_t n_said_before, PassContext& ctx) const {
+  const bool is_stopped = ctx.stop.stop_requested();
+  if (!is_stopped && ctx.diag.count() == n_said_before) ctx.diag.report(Diag::pass_failed, {}, steps_[step].info->name);
+  return false;
+}
+
 bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, PassContext& ctx) {
   Mesh mesh;
   MeshScratch scratch;
+  const auto n_said = ctx.diag.count();
   const auto textured = textured_geometry(scene);
   const auto driven = driven_geometry(scene);
   for (NodeId n : all_nodes(scene)) {
@@ -184,7 +193,7 @@ bool Pipeline::run_mesh_steps(std::size_t begin, std::size_t end, Scene& scene, 
     bool changed = false;
     for (std::size_t i = begin; i < end; ++i) {
       auto outcome = steps_[i].pass->run(job);
-      if (outcome == Outcome::failed) return false;
+      if (outcome == Outcome::failed) return failed(i, n_said, ctx);
       changed |= outcome == Outcome::changed;
     }
     if (changed) store_mesh(scene, n, mesh);
@@ -207,7 +216,9 @@ void Pipeline::run_tail(MeshJob& job, const LazyState& state) const {
   for (std::size_t i = state.tail; i < steps_.size(); ++i) {
     job.mesh.cut.clear();
     const auto start = state.times ? std::chrono::steady_clock::now() : std::chrono::steady_clock::time_point();
-    steps_[i].pass->run(job);
+    const auto n_said = job.ctx.diag.count();
+    if (steps_[i].pass->run(job) == Outcome::failed && job.ctx.diag.count() == n_said)
+      job.ctx.diag.report(Diag::pass_failed, state.scene.where(job.geometry), steps_[i].info->name);
     if (state.times)
       (*state.times)[state.first_time + i - state.tail].seconds +=
           std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -172,6 +172,7 @@ class Pipeline {
   };
   bool run_until_stopped(std::size_t end, Scene&, PassContext&, const PipelineOptions&);
   bool run_steps(std::size_t begin, std::size_t end, Scene&, PassContext&, const PipelineOptions&);
+  bool failed(std::size_t step, std::size_t n_said_before, PassContext&) const;
   bool run_mesh_steps(std::size_t begin, std::size_t end, Scene&, PassContext&);
   struct LazyState;
   void run_tail(MeshJob&, const LazyState&) const;
