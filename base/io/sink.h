@@ -2,6 +2,7 @@
 #pragma once
 #include <charconv>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -10,13 +11,17 @@
 
 namespace wrlkit {
 
+/// May throw: what it throws comes out of the writer.
 using Sink = std::function<void(std::string_view)>;
 
 /// Collects small pieces into blocks for a Sink.
 class TextOut {
  public:
   explicit TextOut(Sink sink) : sink_(std::move(sink)) { buffer_.reserve(block + reserve); }
-  ~TextOut() { flush(); }
+  /// What the Sink throws goes on from here; when something is being thrown, the rest is not written.
+  ~TextOut() noexcept(false) {
+    if (std::uncaught_exceptions() == thrown_before_) flush();
+  }
   TextOut(const TextOut&) = delete;
 
   TextOut& operator<<(std::string_view s) {
@@ -46,18 +51,24 @@ class TextOut {
     *this << std::string_view(b, static_cast<std::size_t>(write_shortest(b, v) - b));
   }
   void flush() {
-    if (!buffer_.empty()) sink_(buffer_);
+    if (buffer_.empty()) return;
     written_ += buffer_.size();
-    buffer_.clear();
+    const ClearedLater cleared{buffer_};  // what was given to a Sink that throws is not given to it again
+    sink_(buffer_);
   }
   /// Bytes so far.
   std::uint64_t size() const { return written_ + buffer_.size(); }
 
  private:
   static constexpr std::size_t block = 256 * 1024, reserve = 4096;
+  struct ClearedLater {
+    std::string& text;
+    ~ClearedLater() { text.clear(); }
+  };
   Sink sink_;
   std::string buffer_;
   std::uint64_t written_ = 0;
+  int thrown_before_ = std::uncaught_exceptions();
 };
 
 }  // namespace wrlkit
