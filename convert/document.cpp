@@ -1,11 +1,34 @@
 #include "convert/document.h"
 
+#include <algorithm>
+#include <map>
+
 #include "convert/embedded_pictures.h"
 #include "convert/placing.h"
 #include "parsers/resources.h"
 #include "passes/lower_vrml1/lower_vrml1.h"
 
 namespace wrlkit {
+namespace {
+
+const std::string no_file;  // of what was read from memory, or made
+
+using NewUrls = std::map<std::string, std::string, std::less<>>;
+
+/// Of all nodes from `first` on.
+void rename_urls(Scene& scene, NodeId first, const NewUrls& renamed) {
+  for (NodeId n = first; n.value < scene.node_count(); ++n.value)
+    for (Value v : scene.copy_of_fields(n)) {
+      if (scene.is_extra(v) || v.is || v.type != FieldType::MFString) continue;
+      const auto old = v.text_span();
+      std::vector<std::string_view> urls(old.begin(), old.end());
+      for (auto& url : urls)
+        if (const auto now = renamed.find(url); now != renamed.end()) url = now->second;
+      if (!std::ranges::equal(urls, old)) scene.set(n, scene.make(v.type, v.slot, urls));
+    }
+}
+
+}  // namespace
 
 struct Document::State {
   LoadOptions options;
@@ -19,10 +42,17 @@ struct Document::State {
 
   State(LoadOptions o, Watch watch)
       : options(std::move(o)), context(own_diag, own_stats, nullptr, watch.monitor, std::move(watch.stop)) {
+    apply_severities();
+  }
+  State(World w, PassContext c) : context(std::move(c)) {
+    if (!context.resources) open_files(no_file);
+    world = std::make_unique<World>(std::move(w));
+  }
+
+  void apply_severities() {
     if (options.strict) own_diag.warnings_are_errors();
     for (const auto& [id, severity] : options.severities) own_diag.set_severity(id, severity);
   }
-  State(World w, PassContext c) : world(std::make_unique<World>(std::move(w))), context(std::move(c)) {}
 
   /// A file that another one refers to, in the nodes of VRML97. The only place where that is done.
   std::shared_ptr<const Scene> parse_inlined(const std::string& file, Diagnostics& diag) {
@@ -65,9 +95,10 @@ Document::Document(LoadOptions options, Watch watch)
     : state_(std::make_unique<State>(std::move(options), std::move(watch))) {}
 Document::Document(World world, const PassContext& context)
     : state_(std::make_unique<State>(std::move(world), context)) {}
-Document::Document(World world) : Document(LoadOptions{}) {
+Document::Document(World world, LoadOptions options, Watch watch) : Document(std::move(options), std::move(watch)) {
   state_->own_diag = Diagnostics(world.scene.sources);
-  state_->open_files(std::string(standard_input));
+  state_->apply_severities();
+  state_->open_files(no_file);
   state_->take(std::make_unique<World>(std::move(world)));
 }
 Document::Document(Document&&) noexcept = default;
@@ -99,13 +130,26 @@ bool Document::read(const std::string& path, const FileText& file) {
 
 bool Document::parse(std::string_view bytes, std::string name) {
   state_->path = name;
-  state_->open_files(std::string(standard_input));
+  state_->open_files(no_file);
   return state_->take(parse_world(bytes, std::move(name), state_->reading(), diag()));
 }
 
 Document Document::copy() const {
   Document out(*state_->world, state_->context);
   out.state_->path = state_->path;
+  return out;
+}
+
+Scope Document::import(const Document& other) {
+  Scene& scene = this->scene();
+  const NodeId first{static_cast<std::uint32_t>(scene.node_count())};
+  Scope out = scene.import(other.scene());
+  Resources *to = resources(), *from = other.resources();
+  if (!to || !from || to == from) return out;
+  to->allow(from->folders());
+  NewUrls renamed;
+  for (const MadeFile& file : from->made()) renamed.emplace(std::string(made_scheme) + file.name, to->add_made(file));
+  if (!renamed.empty()) rename_urls(scene, first, renamed);
   return out;
 }
 

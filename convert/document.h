@@ -32,8 +32,9 @@ class Document {
   /// A scene that was made elsewhere, with the messages and files that a pass is given. The context must outlive
   /// the document.
   Document(World world, const PassContext& context);
-  /// The same with messages of its own; files next to it are not known.
-  explicit Document(World world);
+  /// The same with messages of its own. Files next to it are not known: LoadOptions::allow_paths says where relative
+  /// urls may lead.
+  explicit Document(World world, LoadOptions options = {}, Watch watch = {});
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
   ~Document();
@@ -43,8 +44,8 @@ class Document {
   bool read(const std::string& path);
   /// The same of a file that was read already.
   bool read(const std::string& path, const FileText& file);
-  /// The same from memory, not gzipped; `name` is for messages. Files next to it are not known:
-  /// LoadOptions::allow_paths says where relative urls may lead.
+  /// The same from memory, not gzipped; `name` is for messages. Bytes have no folder: no file is read but below
+  /// LoadOptions::allow_paths, and relative urls are looked for in each of these.
   bool parse(std::string_view bytes, std::string name);
 
   /// What is read from now on is left as it is by LoadOptions::unit, up, show_all and run_startup: the pipeline that
@@ -58,6 +59,11 @@ class Document {
   /// A document of its own with the same scene, whose arrays are shared; messages go to this one, which must outlive
   /// it.
   Document copy() const;
+
+  /// Takes over the nodes of another document (Scene::import) with what they refer to: the files that it may read may
+  /// be read by this one, too, and the files that its passes have made become files of this one. Returns its roots,
+  /// ROUTEs and prototypes in this scene's ids; they are shown once they are put into scene().main or below a node.
+  Scope import(const Document& other);
 
   World& world();
   const World& world() const;

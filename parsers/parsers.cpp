@@ -242,7 +242,8 @@ std::unique_ptr<World> parse_world(const FileText& file, const ReadOptions& opti
 std::unique_ptr<World> parse_world(std::string_view text, std::string name, const ReadOptions& options,
                                    Diagnostics& diag) {
   auto kept = std::make_shared<std::string>(text);
-  auto base = diag.sources().add(std::move(name), text.size(), [kept] { return Sources::Loaded{*kept, kept}; });
+  const auto again = [kept] { return Sources::Loaded{*kept, kept}; };
+  auto base = diag.sources().add(std::move(name), text.size(), again, true);
   if (base == Span::nowhere) {
     diag.report(Diag::too_large, {}, "the text", "4 GiB", text.size());
     return nullptr;

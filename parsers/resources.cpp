@@ -22,8 +22,9 @@ bool is_blank(std::string_view s) {
   return std::ranges::all_of(s, [](unsigned char c) { return c <= ' '; });
 }
 
-std::vector<std::string> folders(const ResourceOptions& options) {
-  std::vector<std::string> all{fs::path(options.input).parent_path().string()};
+std::vector<std::string> folders_of(const ResourceOptions& options) {
+  std::vector<std::string> all;
+  if (!options.input.empty()) all.push_back(fs::path(options.input).parent_path().string());
   all.insert(all.end(), options.allowed.begin(), options.allowed.end());
   return all;
 }
@@ -51,7 +52,8 @@ struct FileResources::Slot {
 };
 
 FileResources::FileResources(ResourceOptions options, ParseWorld parse)
-    : options_(std::move(options)), parse_(std::move(parse)), files_(folders(options_)) {
+    : options_(std::move(options)), parse_(std::move(parse)), files_(folders_of(options_)) {
+  if (options_.input.empty()) return;
   if (!options_.in_place) files_read().add(options_.input);
   if (!options_.project) return;
   const auto folder = fs::path(options_.input).parent_path().string();
@@ -117,12 +119,15 @@ void FileResources::report_once(Diagnostics& diag, Diag id, Span where, std::str
 FileResources::Target FileResources::locate(std::string_view url, Span where, const Sources& sources) {
   if (url_kind(url) == UrlKind::data || find_made(url)) return {AllowedFiles::found, {}, std::string(url)};
   std::lock_guard lock(mutex_);
-  std::string referrer(sources.file(where.begin));
-  if (referrer.empty() || referrer == standard_input_name) referrer = options_.input;
+  std::string referrer;
+  if (!sources.is_in_memory(where.begin)) {
+    referrer = sources.file(where.begin);
+    if (referrer.empty() || referrer == standard_input_name) referrer = options_.input;
+  }
   auto [at, is_new] = looked_up_.try_emplace({referrer, std::string(url)});
   auto& best = at->second;
   if (is_new) {
-    best = find_url(files_, url, referrer);
+    best = referrer.empty() ? find_url_below(files_, url, options_.allowed) : find_url(files_, url, referrer);
     if (best.state == AllowedFiles::found || best.state == AllowedFiles::repaired) files_read().add(best.canonical);
   }
   return {best.state, best.path, best.canonical};
@@ -192,6 +197,21 @@ std::shared_ptr<const Image> FileResources::picture(const Target& target, std::s
     auto image = file ? decode_image(file->bytes, file->name, fault) : std::nullopt;
     return image ? std::make_shared<const Image>(std::move(*image)) : nullptr;
   });
+}
+
+std::vector<std::string> FileResources::folders() const { return folders_of(options_); }
+
+void FileResources::allow(const std::vector<std::string>& more) {
+  std::lock_guard lock(mutex_);
+  options_.allowed.insert(options_.allowed.end(), more.begin(), more.end());
+  files_.allow(more);
+  looked_up_.clear();
+}
+
+void FileResources::forget(const std::string& url) {
+  std::lock_guard lock(cache_mutex_);
+  blobs_.erase(url);
+  images_.erase(url);
 }
 
 void FileResources::set_root(std::shared_ptr<const Scene> scene) {

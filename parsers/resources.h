@@ -17,7 +17,7 @@
 namespace wrlkit {
 
 struct ResourceOptions {
-  std::string input = "-";                 // the file that is converted: files below its folder may be read
+  std::string input = "-";                 // that is converted: files below its folder may be read; empty: none is
   std::vector<std::string> allowed = {};   // and below these (--allow-path)
   bool project = false;                    // and linked files as far up as its project reaches (io/project_folder.h)
   bool in_place = false;                   // the input may be replaced
@@ -53,6 +53,13 @@ class FileResources final : public Resources {
   /// All that was asked for until now: what the result depends on in addition to the input. What has no referrer was
   /// named by the user.
   std::vector<FileLookup> lookups() const;
+
+  /// That of the input, and those that were allowed.
+  std::vector<std::string> folders() const override;
+  void allow(const std::vector<std::string>&) override;
+
+ protected:
+  void forget(const std::string& url) override;
 
  private:
   struct Target;

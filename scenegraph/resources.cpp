@@ -19,6 +19,10 @@ const MadeFile* Resources::find_made(std::string_view url) const {
   return i == made_.end() ? nullptr : &*i;
 }
 
+void Resources::keep_made(std::size_t n) {
+  for (; made_.size() > n; made_.pop_back()) forget(std::string(made_scheme) + made_.back().name);
+}
+
 void Resources::add_named(NamedFile file) {
   std::erase_if(named_, [&](const NamedFile& n) { return n.path == file.path; });
   named_.push_back(std::move(file));

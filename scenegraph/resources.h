@@ -88,6 +88,8 @@ class Resources {
   std::string add_made(MadeFile);
   /// In the order in which they were handed in.
   const std::deque<MadeFile>& made() const { return made_; }
+  /// Drops all but the first `n` of them: the others are of a copy of the scene that is gone. Not while others ask.
+  void keep_made(std::size_t n);
   /// Null when there is none of that url.
   const MadeFile* find_made(std::string_view url) const;
 
@@ -97,11 +99,20 @@ class Resources {
   /// Those that were handed in since the last call.
   std::vector<NamedFile> take_named() { return std::exchange(named_, {}); }
 
+  /// The folders that may be read.
+  virtual std::vector<std::string> folders() const { return {}; }
+  /// Files below these may be read from now on. Not while others ask.
+  virtual void allow(const std::vector<std::string>&) {}
+
   /// What was read from until now; outputs do not replace it.
   FilesRead& files_read() { return files_read_; }
   const FilesRead& files_read() const { return files_read_; }
   /// What is written next to them.
   FilesWritten& files_written() const { return files_written_; }
+
+ protected:
+  /// What is known of the file that was made by that url.
+  virtual void forget(const std::string&) {}
 
  private:
   std::deque<MadeFile> made_;

@@ -38,7 +38,9 @@ std::map<std::string, std::string> list(const std::string& folder) {
 
 }  // namespace
 
-AllowedFiles::AllowedFiles(const std::vector<std::string>& folders) {
+AllowedFiles::AllowedFiles(const std::vector<std::string>& folders) { allow(folders); }
+
+void AllowedFiles::allow(const std::vector<std::string>& folders) {
   for (auto& f : folders)
     if (auto c = canonical(f.empty() ? "." : f); !c.empty()) roots_.push_back({f, c});
 }
@@ -115,6 +117,15 @@ AllowedFiles::Result find_url(AllowedFiles& files, std::string_view url, const s
   if (best.state == AllowedFiles::missing && url.starts_with("//")) {
     best = files.find(std::string(url.substr(2)), referrer);
     if (best.state == AllowedFiles::found) best.state = AllowedFiles::repaired;
+  }
+  return best;
+}
+
+AllowedFiles::Result find_url_below(AllowedFiles& files, std::string_view url, std::span<const std::string> folders) {
+  AllowedFiles::Result best;
+  for (const auto& folder : folders) {
+    const auto referrer = std::filesystem::path(folder) / "none";  // of which only the folder matters
+    if (auto result = find_url(files, url, referrer.string()); result.state < best.state) best = std::move(result);
   }
   return best;
 }

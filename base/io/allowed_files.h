@@ -2,6 +2,7 @@
 // written: there, upper and lower case were the same, and paths were those of the author's machine.
 #pragma once
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -21,6 +22,9 @@ class AllowedFiles {
 
   /// An empty name is the current folder.
   explicit AllowedFiles(const std::vector<std::string>& folders);
+
+  /// The same, later.
+  void allow(const std::vector<std::string>& folders);
 
   /// Pictures, sounds, films and scenes below that folder, which lies above `folder`, may be read as well; what is of
   /// another kind by its first bytes stays outside. `top` is absolute and without links.
@@ -53,5 +57,7 @@ struct FileLookup {
 
 /// The best of what the paths that a url may mean lead to.
 AllowedFiles::Result find_url(AllowedFiles&, std::string_view url, const std::string& referrer);
+/// The same for urls of what lies in no folder: as if it lay in each of these.
+AllowedFiles::Result find_url_below(AllowedFiles&, std::string_view url, std::span<const std::string> folders);
 
 }  // namespace wrlkit

@@ -21,6 +21,7 @@ Buffers::Buffers(File& file, std::string path, const std::vector<std::string>& a
                  std::vector<FileLookup>* lookups)
     : file_(file),
       path_(std::move(path)),
+      allowed_(allowed),
       files_(folders(path_, allowed)),
       lookups_(lookups),
       buffers_(file.count(Table::buffers)),
@@ -42,8 +43,7 @@ std::optional<std::string> Buffers::find(Json buffer, std::string_view uri) {
     return std::nullopt;
   };
   if (url_kind(uri) != UrlKind::file) return report(Diag::url_network);
-  if (path_.empty()) return report(Diag::url_not_found);
-  const auto best = find_url(files_, uri, path_);
+  const auto best = path_.empty() ? find_url_below(files_, uri, allowed_) : find_url(files_, uri, path_);
   if (lookups_) lookups_->push_back({path_, std::string(uri), best});
   if (best.state == AllowedFiles::outside) return report(Diag::url_outside);
   if (best.state == AllowedFiles::missing) return report(Diag::url_not_found);

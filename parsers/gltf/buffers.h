@@ -17,7 +17,7 @@ class Buffers {
  public:
   static constexpr std::uint64_t max_bytes = std::uint64_t{4} << 30;  // of all buffers and unpacked views
 
-  /// `path` is the file's own; none, and no files, when it is empty.
+  /// `path` is the file's own; empty: it lies in no folder, and its files are looked for in those that are allowed.
   Buffers(File& file, std::string path, const std::vector<std::string>& allowed, std::vector<FileLookup>* lookups);
 
   /// Nothing when it cannot be read, which was reported.
@@ -49,6 +49,7 @@ class Buffers {
 
   File& file_;
   std::string path_;
+  std::vector<std::string> allowed_;
   AllowedFiles files_;
   std::vector<FileLookup>* lookups_;
   std::vector<Buffer> buffers_;
