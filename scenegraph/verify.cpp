@@ -11,6 +11,7 @@
 #include "scenegraph/driven.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/range_text.h"
+#include "scenegraph/repair.h"
 #include "scenegraph/scopes.h"
 #include "scenegraph/walk.h"
 
@@ -26,6 +27,7 @@ class ValueCheck {
   }
 
   void value(NodeId n, const Value& v) {
+    if (const auto& c = scene_.content(v); !can_be_written(c)) report_repair(scene_, n, c, diag_);
     if (scene_.is_extra(v) || v.is) return;
     const auto& f = scene_.type(n).fields[v.slot];
     if (f.range.bounded()) range(n, f, v);
@@ -154,7 +156,8 @@ class Invariants {
     if (!is_type(s_.type_id(n))) return breach("a node of a type that is not there");
     if (s_.type(n).kind == NodeKind::proto && s_.type(n).proto.value >= s_.proto_count())
       breach(n, "an instance of a prototype that is not there");
-    std::vector<std::uint16_t> slots;
+    auto& slots = slots_;
+    slots.clear();
     for (auto& v : s_.fields(n)) {
       if (!s_.is_extra(v)) slots.push_back(v.slot);
       if (!s_.is_extra(v) && v.slot >= s_.type(n).fields.size())
@@ -164,9 +167,10 @@ class Invariants {
       for (NodeId c : s_.content(v).node_span())
         if (c && !is_node(c)) breach(n, "a child that is not a node");
     }
-    if (s_.fields(n).size() >= NodeType::many_fields && !std::ranges::is_sorted(slots))
+    const bool is_sorted = std::ranges::is_sorted(slots);
+    if (s_.fields(n).size() >= NodeType::many_fields && !is_sorted)
       breach(n, "many fields that are not in their order");
-    std::ranges::sort(slots);
+    if (!is_sorted) std::ranges::sort(slots);
     if (std::ranges::adjacent_find(slots) != slots.end()) breach(n, "two values of one field");
   }
 
@@ -234,6 +238,7 @@ class Invariants {
   Level level_;
   Diagnostics& diag_;
   std::vector<char> driven_;  // by node, at the level of meshes
+  std::vector<std::uint16_t> slots_;
   bool good_ = true;
 };
 

@@ -11,7 +11,8 @@ namespace wrlkit {
 enum class Level : std::uint8_t { authored, expanded, mesh };
 
 /// What `check` reports in addition to the parser: values out of range, unknown keywords, nodes in places that cannot
-/// hold them, wrong ROUTE types. Warnings only: such files are read all the same. O(scene).
+/// hold them, wrong ROUTE types; and of scenes that programs make, what repair_values repairs. Warnings only: such
+/// files are read all the same. O(scene).
 void check_values(const Scene&, Diagnostics&);
 /// The same of one value that a node has, or is to have.
 void check_value(const Scene&, NodeId, const Value&, Diagnostics&);

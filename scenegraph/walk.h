@@ -6,11 +6,13 @@
 
 namespace wrlkit {
 
-/// Calls f(NodeId) for each node that a field of `n` holds, in the order of its fields; unknown fields too.
+/// Calls f(NodeId) for each node that a field of `n` holds, in the order of its fields; unknown fields too. NULL in a
+/// list is no node.
 template <class F>
 void for_each_child(const Scene& scene, NodeId n, F&& f) {
   for (const Value& v : scene.fields(n))
-    for (NodeId c : scene.content(v).node_span()) f(c);
+    for (NodeId c : scene.content(v).node_span())
+      if (c) f(c);
 }
 
 /// Appends every node that can be reached from `roots` and is not in `seen` yet, parents before children, and marks it

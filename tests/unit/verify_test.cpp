@@ -38,6 +38,12 @@ TEST_CASE("verify: what is sound", "[verify]") {
   CHECK(c.breach(Level::mesh).empty());
 }
 
+TEST_CASE("verify: NULL in a list of nodes is no breach", "[verify]") {
+  Checked c;
+  c.hold(c.other, NodeId{});
+  CHECK(c.breach(Level::mesh).empty());
+}
+
 TEST_CASE("verify: breaches", "[verify]") {
   Checked c;
   const NodeId nowhere{99};
