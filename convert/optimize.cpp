@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "convert/kept_made.h"
 #include "parsers/gltf/names.h"
 #include "passes/analysis/text_list.h"
 #include "passes/inline/inline.h"
@@ -94,6 +95,7 @@ Optimized optimize(const Document& document, const std::string& path, const Prof
                            pipeline || !to ? "its name should end in .glb or .gltf" : why);
     return {};
   }
+  const KeptMade kept(document.resources());
   auto copy = document.copy();
   return optimize(copy, *pipeline, *to, options);
 }

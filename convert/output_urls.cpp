@@ -1,9 +1,15 @@
 #include "convert/output_urls.h"
 
+#include <algorithm>
+#include <filesystem>
+
+#include "base/io/uri.h"
 #include "base/io/url.h"
 
 namespace wrlkit {
 namespace {
+
+namespace fs = std::filesystem;
 
 bool is_picture(UrlUse use) { return use == UrlUse::texture || use == UrlUse::picture; }
 
@@ -17,11 +23,27 @@ OutputUrls::OutputUrls(const Writing& w, bool textures) : writing_(w), textures_
 }
 
 std::optional<std::string> OutputUrls::operator()(std::string_view url, Span where, UrlUse use) {
-  if (writing_.options.embed && is_picture(use) && (textures_ || use != UrlUse::texture))
+  // In memory there is nothing next to what is written.
+  const bool embeds = writing_.options.embed || (writing_.sink && writing_.context.resources->find_made(url));
+  if (embeds && is_picture(use) && (textures_ || use != UrlUse::texture))
     if (auto data = data_of(url, where)) return data;
   auto copy = copies_ ? copies_->url(url, where, use) : std::nullopt;
   if (writing_.options.embed && copy) report_not_embedded(*copy, where, use);
-  return copy;
+  return copy ? copy : led_from_nowhere(url, where);
+}
+
+/// Relative urls of nodes that lie in no file lead to a file by other ways than those of the file that is written.
+std::optional<std::string> OutputUrls::led_from_nowhere(std::string_view url, Span where) {
+  const auto& sources = *writing_.scene.sources;
+  const auto& path = writing_.to.path;
+  if ((where && !sources.is_in_memory(where.begin)) || writing_.sink || path == "-") return std::nullopt;
+  const auto target = writing_.context.resources->target(url, where, sources);
+  if (target.kind != UrlTarget::Kind::file) return std::nullopt;
+  std::error_code fault;
+  const auto here = fs::weakly_canonical(fs::absolute(path, fault).parent_path(), fault);
+  if (fault) return std::nullopt;
+  return uri_of(fs::path(target.path).lexically_relative(here).generic_string()) +
+         std::string(url.substr(std::min(url.find('#'), url.size())));
 }
 
 void OutputUrls::report_not_embedded(const std::string& copy, Span where, UrlUse use) {

@@ -25,6 +25,7 @@ class OutputUrls {
 
  private:
   std::optional<std::string> data_of(std::string_view url, Span where);
+  std::optional<std::string> led_from_nowhere(std::string_view url, Span where);
   void report_not_embedded(const std::string& copy, Span where, UrlUse use);
 
   const Writing& writing_;

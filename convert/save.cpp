@@ -1,10 +1,15 @@
 #include "convert/save.h"
 
+#include "convert/kept_made.h"
 #include "convert/missing_files.h"
 #include "convert/writing.h"
+#include "scenegraph/repair.h"
+#include "scenegraph/verify.h"
 
 namespace wrlkit {
 namespace {
+
+constexpr auto no_scene = "there is no scene";
 
 Saved failed(const Document& document, const std::string& path, const std::string& why) {
   document.diag().report(Diag::cannot_write, {}, path, why);
@@ -40,9 +45,12 @@ Saved write_to(Document& document, Pipeline& pipeline, const Output& to, const S
 }
 
 Saved save_to(Document&& document, const std::string& path, const SaveOptions& options, const Sink* sink) {
-  if (!document) return {};
   const auto to = output_of(path, options);
   if (!to) return failed(document, path, "its name should end in " + output_endings_text());
+  if (sink && to->format->endings == ".gltf")
+    return failed(document, path, "what is written to memory has no files next to it; choose .glb");
+  if (!verify(document.scene(), Level::authored, document.diag())) return {};
+  repair_values(document.scene(), document.diag());
   std::string why;
   auto pipeline = pipeline_for(*to, options, why);
   if (!pipeline) return failed(document, path, why);
@@ -64,15 +72,20 @@ Saved write_document(Document& document, Pipeline& pipeline, const Output& to, c
 }
 
 Saved save(const Document& document, const std::string& path, const SaveOptions& options) {
-  return document ? save_to(document.copy(), path, options, nullptr) : Saved{};
+  if (!document) return failed(document, path, no_scene);
+  const KeptMade kept(document.resources());
+  return save_to(document.copy(), path, options, nullptr);
 }
 
 Saved save(Document&& document, const std::string& path, const SaveOptions& options) {
+  if (!document) return failed(document, path, no_scene);
   return save_to(std::move(document), path, options, nullptr);
 }
 
 Saved save(const Document& document, const Sink& sink, const std::string& ending, const SaveOptions& options) {
-  return document ? save_to(document.copy(), ending, options, &sink) : Saved{};
+  if (!document) return failed(document, ending, no_scene);
+  const KeptMade kept(document.resources());
+  return save_to(document.copy(), ending, options, &sink);
 }
 
 }  // namespace wrlkit

@@ -21,12 +21,14 @@ struct Saved {
 };
 
 /// Writes a document; the ending of the name decides the format ("-": a .glb to standard output). The file is written
-/// whole or not at all. What the format needs is done to a copy, so that the document stays what it was.
+/// whole or not at all. What the format needs is done to a copy, so that the document stays what it was. A scene that
+/// breaks what `verify` checks (scenegraph/verify.h) is not written.
 Saved save(const Document&, const std::string& path, const SaveOptions& = {});
 /// The same, without the copy: the document holds what was written.
 Saved save(Document&&, const std::string& path, const SaveOptions& = {});
-/// The same into memory, piece by piece; `ending` says the format: ".glb". Pictures are inside what is written, or stay
-/// where the document has them.
+/// The same into memory, piece by piece; `ending` says the format: ".glb", ".wrl", ".x3d". Pictures that passes have
+/// made are inside what is written; others of VRML and X3D stay where the document has them (SaveOptions::embed:
+/// inside, too). What the Sink throws comes out here; the document stays what it was then, too.
 Saved save(const Document&, const Sink&, const std::string& ending, const SaveOptions& = {});
 
 /// What the command line may want to see of it.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/io/gzip.h"
 #include "base/io/output.h"
 #include "base/io/url.h"
 #include "base/stop.h"
@@ -43,11 +44,25 @@ void report_inlines(const Writing& w) {
   });
 }
 
+/// Calls f with a Sink whose bytes are packed on the way to another one, where that is wanted.
+void write_packed(const Sink& to, bool gzip, auto&& f) {
+  if (!gzip) return f(to);
+  Gzip packer;
+  const Gzip::Put put = [&](std::string_view packed) {
+    to(packed);
+    return 0;
+  };
+  f([&](std::string_view piece) { packer.pack(piece, false, put); });
+  packer.pack({}, true, put);
+}
+
 bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;
   TextOptions options{.precision = w.options.precision, .own_fields = w.options.dump};
   if (w.sink) {
-    write(w.scene, options, *w.sink, diag);
+    OutputUrls urls(w, true);
+    options.copy = std::ref(urls);
+    write_packed(*w.sink, w.to.gzip, [&](const Sink& sink) { write(w.scene, options, sink, diag); });
     return write_named_files(*w.context.resources, diag);
   }
   const auto& path = w.to.path;

@@ -21,7 +21,7 @@ bool is_relative(std::string_view url) {
 /// From the folder of the output to that of the file in which urls stand; empty when they are the same.
 fs::path prefix_of(const Scene& scene, Span where, std::string_view file) {
   const auto read = scene.sources->file(where.begin), main = scene.sources->file(0);
-  if (read.empty() || read == "-") return {};
+  if (read.empty() || read == "-" || scene.sources->is_in_memory(where.begin)) return {};
   const fs::path from = folder_of(read), here = folder_of(file.empty() ? main : file);
   return from == here ? fs::path() : from.lexically_relative(here);
 }
