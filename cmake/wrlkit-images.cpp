@@ -1,5 +1,5 @@
 // Compiled into each program that finds wrlkit by find_package: tells the library where its picture codecs lie.
-#include "base/image/image_codecs.h"
+#include <wrlkit/base/image/image_codecs.h>
 
 namespace {
 

@@ -1,5 +1,5 @@
 """What the programs of docs/cpp.md have made, in a folder (tests/consumer/run)."""
-import json, pathlib, struct, sys
+import json, pathlib, re, struct, sys
 
 folder = pathlib.Path(sys.argv[1])
 
@@ -28,6 +28,12 @@ linear = [((c + 0.055) / 1.055) ** 2.4 if c > 0.04045 else c / 12.92 for c in (0
 colors = [m.get('pbrMetallicRoughness', {}).get('baseColorFactor', [1, 1, 1, 1])[:3] for m in document['materials']]
 assert any(max(abs(a - b) for a, b in zip(c, linear)) < 1e-4 for c in colors), (colors, linear)
 assert int((folder / 'pass.txt').read_text().split()[0]) > 0
+
+# make.cpp: what it has made, and the world beside it with its picture.
+made = (folder / 'made/made.wrl').read_text()
+assert 'DEF Base Transform' in made and 'size 4 1 4' in made
+pictures = re.findall(r'url "(.*?)"', made)
+assert pictures and all((folder / 'made' / p).is_file() for p in pictures), pictures
 
 # tinygltf_rough.cpp
 if (folder / 'rough.glb').exists():

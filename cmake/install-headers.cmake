@@ -1,0 +1,17 @@
+# Installs headers below wrlkit/, where they include each other as <wrlkit/...>: a program may have a geometry/mesh.h of
+# its own. HEADERS lie below one of ROOTS; STAGED is a folder for what is changed; TO is that of all headers.
+cmake_minimum_required(VERSION 3.25)
+foreach(header IN LISTS HEADERS)
+  foreach(root IN LISTS ROOTS)
+    cmake_path(IS_PREFIX root "${header}" is_below)
+    if(is_below)
+      cmake_path(RELATIVE_PATH header BASE_DIRECTORY "${root}" OUTPUT_VARIABLE name)
+      break()
+    endif()
+  endforeach()
+  cmake_path(GET name PARENT_PATH folder)
+  file(READ "${header}" text)
+  string(REGEX REPLACE "#include \"([^\"]+/[^\"]+)\"" "#include <wrlkit/\\1>" text "${text}")
+  file(CONFIGURE OUTPUT "${STAGED}/wrlkit/${name}" CONTENT "@text@" @ONLY)
+  file(INSTALL "${STAGED}/wrlkit/${name}" DESTINATION "${CMAKE_INSTALL_PREFIX}/${TO}/wrlkit/${folder}")
+endforeach()

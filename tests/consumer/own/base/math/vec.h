@@ -1,0 +1,2 @@
+// Of a program that uses wrlkit (CMakeLists.txt): called as one of wrlkit's headers is.
+#error "a header of the program instead of wrlkit's"
