@@ -82,8 +82,8 @@ bool write_text(const Writing& w, TextWriter write) {
   options.copy = std::ref(urls);
   write(w.scene, options, file->sink(), diag);
   NamedFiles named(*w.context.resources, diag);
-  const bool done =
-      made.write() && named.write() && urls.write() && made.commit() && named.commit() && file->commit(diag);
+  const bool done = made.write() && named.write() && urls.write() && !w.context.stop.stop_requested() &&
+                    made.commit() && named.commit() && file->commit(diag);
   if (done) urls.keep();
   return done;
 }

@@ -7,6 +7,7 @@
 #include "base/io/gzip.h"
 #include "base/io/output.h"
 #include "base/io/uri.h"
+#include "base/stop.h"
 #include "scenegraph/nodes.h"
 #include "writers/gltf/document/dequantize.h"
 #include "writers/gltf/document/headlight.h"
@@ -72,6 +73,7 @@ class Files {
     return true;
   }
   bool commit() {
+    check_stop();
     return std::all_of(files_.rbegin(), files_.rend(), [&](OutputFile& f) { return f.commit(diag_); });
   }
 
