@@ -72,10 +72,14 @@ std::string general_text(const DiagInfo& diag) {
   return Message{diag.id, diag.severity, {}, std::vector<std::string>(most, "{}")}.text();
 }
 
-// Arguments are shown to people: long ones are cut, control characters blanked.
+// Arguments are shown to people: long ones are cut, between characters, control characters blanked.
 std::string Diagnostics::argument(std::string_view s) {
-  constexpr std::size_t longest = 120;
-  std::string out(s.substr(0, longest));
+  constexpr std::size_t longest = 120, longest_character = 4;
+  const auto is_inside_character = [&](std::size_t at) { return (static_cast<unsigned char>(s[at]) & 0xc0) == 0x80; };
+  auto end = std::min(s.size(), longest);
+  if (s.size() > longest)
+    while (end > longest - longest_character && is_inside_character(end)) --end;
+  std::string out(s.substr(0, end));
   for (char& c : out)
     if (static_cast<unsigned char>(c) < ' ' || c == 0x7f) c = ' ';
   if (s.size() > longest) out += "...";
