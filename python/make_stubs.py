@@ -17,7 +17,7 @@ import numpy.typing
 '''
 # Fields by their types. Nodes are Any as well, so that node.material.diffuseColor can be written without a question at every dot.
 FIELDS = {'SFBool': 'bool', 'SFInt32': 'int', 'SFString': 'str', 'SFEnum': 'str', 'SFBitMask': 'str', 'SFNode': 'Union[Node, Any]', 'MFNode': 'List[Node]', 'MFString': 'List[str]',
-          'SFImage': 'numpy.typing.NDArray[numpy.int32]', 'MFInt32': 'numpy.typing.NDArray[numpy.int32]', 'MFBool': 'numpy.typing.NDArray[numpy.int32]',
+          'SFImage': 'numpy.typing.NDArray[numpy.uint8]', 'MFImage': 'List[numpy.typing.NDArray[numpy.uint8]]', 'MFInt32': 'numpy.typing.NDArray[numpy.int32]', 'MFBool': 'numpy.typing.NDArray[numpy.bool_]',
           'SFFloat': 'float', 'SFDouble': 'float', 'SFTime': 'float'}
 TUPLES = {'SFVec2f': 2, 'SFVec2d': 2, 'SFVec3f': 3, 'SFVec3d': 3, 'SFColor': 3, 'SFRotation': 4, 'SFColorRGBA': 4, 'SFVec4f': 4, 'SFVec4d': 4}
 
@@ -95,9 +95,7 @@ def main(folder):
     table = _wrlkit.node_types()
     out = HEAD + 'from . import nodes\n'
     for name, value in sorted(vars(_wrlkit).items()):
-        if name == 'Error':
-            out += f'\nclass Error(RuntimeError):\n{documented(value.__doc__, "    ")}    messages: List[Message]\n'
-        elif inspect.isclass(value):
+        if inspect.isclass(value):
             out += a_class(name, value, table)
         elif inspect.isroutine(value):
             out += '\n' + function(name, value)

@@ -23,17 +23,10 @@ struct PyMesh {
   Mesh mesh;
 };
 
-std::unique_ptr<PyMesh> mesh_of(const PyNode& node) {
+PyMesh mesh_of(const PyNode& node) {
   if (!node.type().is_a(nodes::X3DGeometryNode))
-    throw py::type_error(std::string(node.type().name) + " is not a geometry node");
-  auto out = std::make_unique<PyMesh>();
-  out->world = node.world;
-  MeshScratch scratch;
-  Statistics stats;
-  auto ctx = node.world->context(stats);
-  MeshJob job{node.scene(), node.id, out->mesh, scratch, ctx};
-  read_mesh(job);
-  return out;
+    throw type_error(std::string(node.type().name) + " is not a geometry node");
+  return {node.world, node.world->mesh(node.id)};
 }
 
 NearestName nearest_type(std::string_view name) {
@@ -49,74 +42,84 @@ void check_type(const Scene& scene, const std::string& name) {
     return;
   NearestName nearest = nearest_type(name);
   for (const auto& type : scene.own_types()) nearest.consider(type.name);
-  throw py::value_error("there is no node type '" + name + "'" + nearest.question());
+  throw value_error("there is no node type '" + name + "'" + nearest.question());
 }
 
-std::vector<PyNode> nodes_of(const std::shared_ptr<PyWorld>& world, const std::string& type) {
-  check_type(world->scene(), type);
+std::vector<PyNode> nodes_of(const std::shared_ptr<PyWorld>& world, const Text& type) {
+  check_type(world->scene(), type.bytes);
   std::vector<PyNode> out;
   for (NodeId n : reachable(world->scene(), world->scene().main))
-    if (type.empty() || world->scene().type(n).is_named(type)) out.push_back({world, n});
+    if (type.bytes.empty() || world->scene().type(n).is_named(type.bytes)) out.push_back({world, n});
   return out;
 }
 
-std::shared_ptr<PyWorld> load(const fs::path& path, const std::vector<fs::path>& allow, const std::string& unit,
-                              const std::string& up) {
-  return PyWorld::load(path.string(), {allow.begin(), allow.end()}, unit, up);
+Reading reading_of(const std::vector<fs::path>& allow, const Text& unit, const Text& up) {
+  return {{allow.begin(), allow.end()}, unit.bytes, up.bytes};
+}
+
+std::shared_ptr<PyWorld> load(const fs::path& path, const std::vector<fs::path>& allow, const Text& unit,
+                              const Text& up) {
+  return PyWorld::load(path.string(), reading_of(allow, unit, up));
+}
+
+std::shared_ptr<PyWorld> load_bytes(const py::bytes& data, const Text& name, const std::vector<fs::path>& allow,
+                                    const Text& unit, const Text& up) {
+  return PyWorld::load_bytes(data, name.bytes, reading_of(allow, unit, up));
 }
 
 std::vector<MessageView> convert_paths(const fs::path& source, const fs::path& target, const fs::path& recipe,
-                                       const std::optional<std::string>& pipeline, const py::kwargs& options) {
-  return convert(source.string(), target.string(), recipe.string(), pipeline, options);
+                                       const std::optional<Text>& pipeline, const py::kwargs& options) {
+  return convert(source.string(), target.string(), recipe.string(),
+                 pipeline ? std::optional(pipeline->bytes) : std::nullopt, options);
 }
 
-py::object find_node(const std::shared_ptr<PyWorld>& world, const std::string& name) {
+py::object find_node(const std::shared_ptr<PyWorld>& world, const Text& name) {
   for (NodeId n : reachable(world->scene(), world->scene().main))
-    if (!name.empty() && world->scene().name(n) == name) return py::cast(PyNode{world, n});
+    if (!name.bytes.empty() && world->scene().name(n) == name.bytes) return py::cast(PyNode{world, n});
   return py::none();
 }
 
-std::vector<std::string> fields_of(const PyNode& n) {
-  std::vector<std::string> names;
+std::vector<Text> fields_of(const PyNode& n) {
+  std::vector<Text> names;
   for (const auto& f : n.type().fields)
-    if (f.has_value()) names.emplace_back(f.name_in(Dialect::vrml97));
+    if (f.has_value()) names.push_back({std::string(f.name_in(Dialect::vrml97))});
   return names;
 }
 
-PyNode add_node(const std::shared_ptr<PyWorld>& w, const std::string& type, const py::kwargs& fields) {
-  auto id = find_builtin(type, Dialect::vrml97);
-  if (!id) id = find_builtin(type, Dialect::x3d);
-  if (!id) throw py::value_error("there is no node type '" + type + "'" + nearest_type(type).question());
+PyNode add_node(const std::shared_ptr<PyWorld>& w, const Text& type, const py::kwargs& fields) {
+  auto id = find_builtin(type.bytes, Dialect::vrml97);
+  if (!id) id = find_builtin(type.bytes, Dialect::x3d);
+  if (!id) throw value_error("there is no node type '" + type.bytes + "'" + nearest_type(type.bytes).question());
   PyNode node{w, w->scene().add(id)};
   for (const auto& [name, value] : fields)
-    set_field(node, name.cast<std::string>(), py::reinterpret_borrow<py::object>(value));
+    set_field(node, name.cast<Text>(), py::reinterpret_borrow<py::object>(value));
   return node;
 }
 
-std::vector<PyNode> roots_of(const std::shared_ptr<PyWorld>& w) {
-  std::vector<PyNode> out;
-  for (NodeId n : w->scene().main.roots) out.push_back({w, n});
-  return out;
+FixedNodes roots_of(const std::shared_ptr<PyWorld>& w) {
+  py::list out;
+  for (NodeId n : w->scene().main.roots) out.append(PyNode{w, n});
+  return fixed_list(out, "World.roots");
 }
 
 void set_roots(const std::shared_ptr<PyWorld>& w, const py::object& nodes) {
   const auto wrong = [](const py::object& given) {
-    return py::type_error("World.roots is a list of Nodes, not " + shown_value(given));
+    return type_error("World.roots is a list of Nodes, not " + shown_value(given));
   };
   if (py::isinstance<PyNode>(nodes) || !py::isinstance<py::iterable>(nodes)) throw wrong(nodes);
   std::vector<NodeId> ids;
   for (const auto item : nodes) {
     if (!py::isinstance<PyNode>(item)) throw wrong(py::reinterpret_borrow<py::object>(item));
     const auto& n = item.cast<const PyNode&>();
-    ids.push_back(n.world == w ? n.id : throw py::value_error("the node is of another world"));
+    ids.push_back(n.world == w ? n.id : throw value_error("the node is of another world"));
   }
   w->scene().main.roots = ids;
 }
 
-std::vector<std::string> pass_names() {
-  std::vector<std::string> names;
-  for (const auto& p : passes()) names.emplace_back(p.name);
-  for (const auto* p : added_passes()) names.emplace_back(p->name);
+std::vector<Text> pass_names() {
+  std::vector<Text> names;
+  for (const auto& p : passes()) names.push_back({std::string(p.name)});
+  for (const auto* p : added_passes()) names.push_back({std::string(p->name)});
   return names;
 }
 
@@ -138,71 +141,112 @@ std::map<std::string, std::pair<std::string, std::vector<std::pair<std::string, 
 std::string read_only(const PyNode& node, const std::string& name) {
   auto why = "Node." + name + " cannot be set";
   const auto fields = fields_of(node);
-  if (std::ranges::find(fields, name) != fields.end()) why += "; the field of that name is node['" + name + "']";
+  if (std::ranges::find(fields, name, &Text::bytes) != fields.end())
+    why += "; the field of that name is node['" + name + "']";
   return why;
+}
+
+void set_attribute(const py::object& self, const Text& name, const py::object& value) {
+  const auto& node = self.cast<const PyNode&>();
+  if (name.bytes == "name" && !py::isinstance<py::str>(value))
+    throw type_error("Node.name is a str, not " + shown_value(value));
+  if (name.bytes == "type" || name.bytes == "world" || name.bytes == "fields")
+    throw attribute_error(read_only(node, name.bytes));
+  if (name.bytes == "name")
+    self.get_type().attr("name").attr("__set__")(self, value);
+  else
+    set_field(node, name, value);
+}
+
+/// A node of its own with the same fields, which is nowhere yet, without the name.
+PyNode copied(const PyNode& node) {
+  Scene& scene = node.scene();
+  const auto fields = scene.copy_of_fields(node.id);
+  const NodeId made = scene.add(scene.type_id(node.id), scene.where(node.id));
+  scene.set_fields(made, fields);
+  return {node.world, made};
+}
+
+/// For classes whose objects cannot be copied, or cannot leave the process.
+template <class T, class... Holder>
+void not_copied(py::class_<T, Holder...>& type, std::initializer_list<const char*> methods, const char* why) {
+  for (const auto* method : methods)
+    type.def(method, [why](const py::object&, const py::args&) -> py::object { throw type_error(why); });
 }
 
 /// For classes whose objects only wrlkit makes.
 template <class T, class... Holder>
 void no_constructor(py::class_<T, Holder...>& type, const char* why) {
-  type.def(py::init([why](const py::args&, const py::kwargs&) -> T* { throw py::type_error(why); }), why);
+  type.def(py::init([why](const py::args&, const py::kwargs&) -> T* { throw type_error(why); }), why);
 }
 
 void define_message(py::class_<MessageView>& type) {
+  const auto pickled = [](const MessageView& m) {
+    return py::make_tuple(static_cast<int>(m.severity), text_value(m.name), text_value(m.text), text_value(m.file),
+                          m.line, m.column);
+  };
+  const auto unpickled = [](const py::tuple& t) {
+    return MessageView{static_cast<Severity>(t[0].cast<int>()),
+                       bytes_of(t[1]),
+                       bytes_of(t[2]),
+                       bytes_of(t[3]),
+                       t[4].cast<std::size_t>(),
+                       t[5].cast<std::size_t>()};
+  };
+  const auto str = [](const MessageView& m) { return shown_text(m.str()); };
   type.def_property_readonly(
           "severity", [](const MessageView& m) { return to_string(m.severity); }, "error, warning or lost")
-      .def_readonly("name", &MessageView::name, "of the kind of message, as in docs/diagnostics.md")
-      .def_readonly("text", &MessageView::text, "in words")
-      .def_readonly("file", &MessageView::file, "where it is, or ''")
+      .def_property_readonly(
+          "name", [](const MessageView& m) { return shown_text(m.name); },
+          "of the kind of message, as in docs/diagnostics.md")
+      .def_property_readonly(
+          "text", [](const MessageView& m) { return shown_text(m.text); }, "in words")
+      .def_property_readonly(
+          "file", [](const MessageView& m) { return text_value(m.file); }, "where it is, or ''")
       .def_readonly("line", &MessageView::line, "from 1")
       .def_readonly("column", &MessageView::column, "from 1, in bytes")
-      .def("__str__", &MessageView::str)
-      .def("__repr__", &MessageView::str);
+      .def("__str__", str)
+      .def("__repr__", str)
+      .def(py::pickle(pickled, unpickled));
 }
 
 void define_node(py::class_<PyNode>& type) {
   type.def_property_readonly(
-          "type", [](const PyNode& n) { return std::string(n.type().name); }, "Its type: 'Material'.")
+          "type", [](const PyNode& n) { return Text{std::string(n.type().name)}; }, "Its type: 'Material'.")
       .def_property(
-          "name", [](const PyNode& n) { return std::string(n.scene().name(n.id)); },
-          [](const PyNode& n, const std::string& name) { n.scene().set_name(n.id, n.scene().keep(name)); },
+          "name", [](const PyNode& n) { return Text{std::string(n.scene().name(n.id))}; },
+          [](const PyNode& n, const Text& name) { n.scene().set_name(n.id, n.scene().keep(name.bytes)); },
           "The DEF name, or ''.")
       .def_property_readonly(
           "world", [](const PyNode& n) { return n.world; }, "The World that it is of.")
       .def_property_readonly("fields", &fields_of, "Names of all fields that a node of this type has.")
       .def(
-          "is_a", [](const PyNode& n, const std::string& base) { return n.type().is_named(base); }, py::arg("type"),
+          "is_a", [](const PyNode& n, const Text& base) { return n.type().is_named(base.bytes); }, py::arg("type"),
           "Whether it is of that type, or of a type that is one: X3DGeometryNode.")
       .def("mesh", &mesh_of,
            "The mesh of a geometry node, as the passes see it. Empty before `tessellate` for Box and the like.")
       .def("__getattr__", &get_field)
-      .def("__setattr__",
-           [](const py::object& self, const std::string& name, const py::object& value) {
-             if (name == "name" && !py::isinstance<py::str>(value))
-               throw py::type_error("Node.name is a str, not " + shown_value(value));
-             if (name == "type" || name == "world" || name == "fields")
-               throw py::attribute_error(read_only(self.cast<const PyNode&>(), name));
-             if (name == "name")
-               self.get_type().attr("name").attr("__set__")(self, value);
-             else
-               set_field(self.cast<const PyNode&>(), name, value);
-           })
+      .def("__setattr__", &set_attribute)
       .def("__getitem__", &get_field, "Fields that are called as a property is: navigation['type'].")
       .def("__setitem__", &set_field)
       .def("__dir__",
            [](const py::object& self) {
              auto names = fields_of(self.cast<const PyNode&>());
              for (auto name : py::list(self.get_type().attr("__dict__").attr("keys")()))
-               names.push_back(name.cast<std::string>());
+               names.push_back(name.cast<Text>());
              return names;
            })
       .def(
           "__eq__", [](const PyNode& a, const PyNode& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const PyNode& n) { return std::hash<std::uint32_t>()(n.id.value); })
+      .def("__copy__", &copied)
       .def("__repr__", [](const PyNode& n) {
-        return "<" + std::string(n.type().name) +
-               (n.scene().name(n.id).empty() ? "" : " " + std::string(n.scene().name(n.id))) + ">";
+        const std::string name(n.scene().name(n.id));
+        return shown_text("<" + std::string(n.type().name) + (name.empty() ? "" : " " + name) + ">");
       });
+  not_copied(type, {"__deepcopy__", "__reduce_ex__"},
+             "a Node is a part of its World and cannot be pickled or copied without it; copy.copy(node) makes another "
+             "node of that World with the same fields");
 }
 
 void define_mesh(py::class_<PyMesh>& type) {
@@ -224,17 +268,21 @@ using WorldClass = py::class_<PyWorld, std::shared_ptr<PyWorld>>;
 
 void define_world(WorldClass& type) {
   type.def_property("roots", &roots_of, &set_roots, "Its root nodes, as a list; write the list to change it.")
-      .def("nodes", &nodes_of, py::arg("type") = "",
+      .def("nodes", &nodes_of, py::arg("type") = Text(),
            "Every node that can be reached, or those of a type or base ('Material', 'X3DGeometryNode'), parents before "
            "children.")
       .def("find", &find_node, py::arg("name"), "The first node of that DEF name, or None.")
       .def("add", &add_node, py::arg("type"), "A new node, which is nowhere yet, with fields by name.")
-      .def("run", py::overload_cast<const std::string&>(&PyWorld::run), py::arg("pipeline"),
-           "Runs passes, as -p of the command line has them, and gives what they counted. Other threads go on "
-           "meanwhile; the world is not theirs. Raises Error when one fails, ValueError when the text is no pipeline.")
-      .def("apply", &PyWorld::apply, py::arg("pass_name"),
-           "Runs one pass with options by keyword, world.apply('lod', ratios=[0.3, 0.1], min_faces=200), and gives "
-           "what it counted.")
+      .def(
+          "run", [](PyWorld& world, const Text& pipeline) { return world.run(pipeline.bytes); }, py::arg("pipeline"),
+          "Runs passes, as -p of the command line has them, and gives what they counted. Other threads go on "
+          "meanwhile; the world is not theirs. Raises Error when one fails, ValueError when the text is no pipeline.")
+      .def(
+          "apply",
+          [](PyWorld& world, const Text& pass, const py::kwargs& options) { return world.apply(pass.bytes, options); },
+          py::arg("pass_name"),
+          "Runs one pass with options by keyword, world.apply('lod', ratios=[0.3, 0.1], min_faces=200), and gives "
+          "what it counted.")
       .def(
           "save",
           [](PyWorld& world, const fs::path& path, const py::kwargs& options) { world.save(path.string(), options); },
@@ -244,13 +292,41 @@ void define_world(WorldClass& type) {
       .def("info", &PyWorld::info, py::arg("recognise") = false,
            "What is inside, as `wrlkit info --json` says it, as a dict. With `recognise` what the parts are, too: "
            "'forms'. The world stays as it is.")
-      .def("report", &PyWorld::report, py::arg("severity"), py::arg("text"), py::arg("node") = py::none(),
-           "Says something of the world, as 'error', 'warning' or 'lost', at the place of a node. It is among the "
-           "messages, in --report and in the report of a corpus run.")
+      .def(
+          "report",
+          [](PyWorld& world, const Text& severity, const py::str& text, const py::object& node) {
+            world.report(severity.bytes, shown_bytes(text), node);
+          },
+          py::arg("severity"), py::arg("text"), py::arg("node") = py::none(),
+          "Says something of the world, as 'error', 'warning' or 'lost', at the place of a node. It is among the "
+          "messages, in --report and in the report of a corpus run.")
+      .def(
+          "to_bytes",
+          [](PyWorld& world, const Text& format, const py::kwargs& options) {
+            return world.to_bytes(format.bytes, options);
+          },
+          py::arg("format"),
+          "What save would write to a file of that format, 'glb', 'wrl' or 'x3d', as bytes, with the same keywords. "
+          "Files that the world refers to are not copied.")
       .def_property_readonly(
-          "messages", [](const PyWorld& w) { return views(w.diag()); },
-          "All messages about it so far, as a list of Message.")
-      .def("__repr__", [](PyWorld& w) { return "<World of " + std::to_string(w.scene().node_count()) + " nodes>"; });
+          "path", [](const PyWorld& w) { return text_value(w.path()); }, "The file that it was read from, or ''.")
+      .def_property_readonly("messages", &PyWorld::messages,
+                             "Messages about it so far, each once, as a list of Message: of each kind the first three "
+                             "of every call.");
+  type.def("__repr__", [](PyWorld& w) {
+    const auto name = fs::path(w.path()).filename().string();
+    auto text =
+        "<World" + (name.empty() ? "" : " " + name + ":") + " " + std::to_string(w.scene().node_count()) + " nodes";
+    for (const auto s : {Severity::error, Severity::warning, Severity::lost}) {
+      const auto messages = w.messages();
+      const auto n = std::ranges::count(messages, s, &MessageView::severity);
+      if (n > 0)
+        text += ", " + std::to_string(n) + " " + std::string(to_string(s)) + (n > 1 && s != Severity::lost ? "s" : "");
+    }
+    return shown_text(text + ">");
+  });
+  not_copied(type, {"__copy__", "__deepcopy__", "__reduce_ex__"},
+             "a World cannot be copied or pickled; load its file again, or give load_bytes what to_bytes gives");
 }
 
 }  // namespace
@@ -260,7 +336,6 @@ PYBIND11_MODULE(_wrlkit, m) {
   using namespace wrlkit::python;
   m.attr("__version__") = WRLKIT_VERSION;
   m.doc() = "Worlds of VRML, X3D and glTF; see wrlkit.load.";
-  define_error(m);
   // Classes first, so that the signatures of all functions name them.
   py::class_<wrlkit::MessageView> message(
       m, "Message", "What was wrong, repaired or lost. line and column count from 1; 0: the file as a whole.");
@@ -278,11 +353,18 @@ PYBIND11_MODULE(_wrlkit, m) {
   define_node(node);
   define_mesh(mesh);
   define_world(world);
+  not_copied(mesh, {"__copy__", "__deepcopy__", "__reduce_ex__"},
+             "a Mesh cannot be copied or pickled; copy its arrays: mesh.positions.copy()");
   define_passes(m);
-  m.def("load", &load, py::arg("path"), py::arg("allow") = std::vector<fs::path>{}, py::arg("unit") = "",
-        py::arg("up") = "",
+  m.def("load", &load, py::arg("path"), py::arg("allow") = std::vector<fs::path>{}, py::arg("unit") = Text(),
+        py::arg("up") = Text(),
         "Reads a world. Files that it refers to are looked for next to it and below the folders in `allow`; `unit` and "
         "`up` are as --unit and --up of convert. Raises Error.");
+  m.def(
+      "load_bytes", &load_bytes, py::arg("data"), py::arg("name") = Text{"bytes"},
+      py::arg("allow") = std::vector<fs::path>{}, py::arg("unit") = Text(), py::arg("up") = Text(),
+      "Reads a world from the bytes of a file, not packed. `name` is for messages. Files that it refers to are looked "
+      "for below the folders in `allow` alone. Raises Error.");
   m.def("convert", &convert_paths, py::arg("source"), py::arg("target"), py::arg("recipe") = "",
         py::arg("pipeline") = py::none(),
         "Converts a file as `wrlkit convert` does: by a recipe, a pipeline, and options by keyword, which come before "

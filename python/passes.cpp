@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "base/text/nearest_name.h"
+#include "python/beside.h"
 #include "python/world.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/python_passes.h"
@@ -36,19 +37,20 @@ class PythonPass final : public PassInstance {
   Outcome run(MeshJob&) const override { return Outcome::failed; }
 
   Outcome run(Scene& scene, PassContext& ctx) const override {
-    py::gil_scoped_acquire lock;
-    auto world = std::make_shared<PyWorld>(scene, ctx);
-    const auto let_go = [&] {
-      if (world.use_count() > 1) world->detach();
-    };
     bool good = false;
-    try {
-      good = call(world, ctx);
-    } catch (...) {
+    call_python([&] {
+      auto world = std::make_shared<PyWorld>(scene, ctx);
+      const auto let_go = [&] {
+        if (world.use_count() > 1) world->detach();
+      };
+      try {
+        good = call(world, ctx);
+      } catch (...) {
+        let_go();
+        throw;
+      }
       let_go();
-      throw;
-    }
-    let_go();
+    });
     return good ? Outcome::changed : Outcome::failed;
   }
 
@@ -62,7 +64,7 @@ class PythonPass final : public PassInstance {
       return false;
     }
     try {
-      at->value = definition_.python.attr("read")(std::string(option), std::string(value)).cast<std::string>();
+      at->value = bytes_of(definition_.python.attr("read")(text_value(option), text_value(value)));
       return true;
     } catch (py::error_already_set& e) {
       if (!e.matches(PyExc_ValueError)) throw;
@@ -76,13 +78,15 @@ class PythonPass final : public PassInstance {
 
   std::vector<std::string> files() const override {
     py::gil_scoped_acquire lock;
-    return definition_.python.attr("files")(values()).cast<std::vector<std::string>>();
+    std::vector<std::string> out;
+    for (const auto& file : definition_.python.attr("files")(values())) out.push_back(bytes_of(file));
+    return out;
   }
 
  private:
   py::dict values() const {
     py::dict out;
-    for (const auto& o : options_) out[py::str(o.name)] = o.value;
+    for (const auto& o : options_) out[py::str(o.name)] = text_value(o.value);
     return out;
   }
 
@@ -95,9 +99,9 @@ class PythonPass final : public PassInstance {
     } catch (py::error_already_set& e) {
       if (e.matches(PyExc_MemoryError)) throw std::bad_alloc();
       const auto exception = exception_of(e);
-      ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text,
-                      definition_.python.attr("describe")(exception).cast<std::string>());
-      set_cause(exception);
+      if (is_fault_of_pass(e))
+        ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text,
+                        shown_bytes(definition_.python.attr("describe")(exception)));
     } catch (const py::cast_error&) {
       ctx.diag.report(Diag::python_failed, Span{}, definition_.name_text,
                       "what it returns is neither None nor a dict of counts");
@@ -134,21 +138,21 @@ void define(const py::object& python) {
 bool load_file(const std::string& path, std::string& why) {
   py::gil_scoped_acquire lock;
   try {
-    py::module_::import("wrlkit.definitions").attr("load")(path);
+    py::module_::import("wrlkit.definitions").attr("load")(text_value(path));
     return true;
   } catch (py::error_already_set& e) {
     if (e.matches(PyExc_KeyboardInterrupt)) throw;
-    why = py::module_::import("wrlkit.definitions").attr("describe")(exception_of(e), path).cast<std::string>();
+    why = shown_bytes(py::module_::import("wrlkit.definitions").attr("describe")(exception_of(e), text_value(path)));
     return false;
   }
 }
 
 /// The verbs of the program. Python is held all the time: workers of a corpus run are forks, so no other thread may
 /// run.
-int run_verb(std::vector<std::string> words) {
-  words.insert(words.begin(), "wrlkit");
+int run_verb(std::vector<Text> words) {
+  words.insert(words.begin(), Text{"wrlkit"});
   std::vector<char*> arguments;
-  for (auto& w : words) arguments.push_back(w.data());
+  for (auto& w : words) arguments.push_back(w.bytes.data());
   arguments.push_back(nullptr);
   return run_program(static_cast<int>(words.size()), arguments.data());
 }
@@ -159,9 +163,9 @@ void define_passes(py::module_& m) {
   load_python_file = &load_file;
   fork_hooks = {PyOS_BeforeFork, PyOS_AfterFork_Parent, PyOS_AfterFork_Child};
   m.def("_define", &define, py::arg("definition"), "Makes a pass of a definition.");
-  m.def("main", &run_verb, py::arg("words"),
+  m.def("_main", &run_verb, py::arg("words"),
         "Runs a command line of the program, ['convert', 'in.wrl', 'out.glb'], and gives its exit code. It prints as "
-        "the program does.");
+        "the program does, and may end the process as the program does.");
 }
 
 }  // namespace wrlkit::python

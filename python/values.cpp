@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "base/text/nearest_name.h"
+#include "python/pictures.h"
 #include "python/world.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/verify.h"
@@ -13,7 +14,18 @@
 namespace wrlkit::python {
 namespace {
 
-py::object to_python(const PyNode& node, const Value& v) {
+std::string full_name(const PyNode& node, std::string_view field) {
+  return std::string(node.type().name) + "." + std::string(field);
+}
+
+template <class T>
+py::list list_of(std::span<const T> all, const auto& as_python) {
+  py::list out;
+  for (const auto& item : all) out.append(as_python(item));
+  return out;
+}
+
+py::object to_python(const PyNode& node, const FieldDef& field, const Value& v) {
   const auto& t = info(v.type);
   auto tuple = [](auto span) {
     py::tuple out(span.size());
@@ -21,23 +33,23 @@ py::object to_python(const PyNode& node, const Value& v) {
     return out;
   };
   const auto array = [&](auto span, std::size_t width) { return view(py::cast(node.world), span, width); };
+  const auto fixed = [&](const py::list& list) { return fixed_list(list, full_name(node, field.name)); };
   switch (t.element) {
     case Element::number:
       if (t.multiple) return array(v.number_span(), t.arity);
       return t.arity == 1 ? py::object(py::float_(v.number)) : py::object(tuple(v.number_span()));
     case Element::integer:
+      if (v.type == FieldType::MFBool) return truths(v.integer_span());
       if (t.multiple) return array(v.integer_span(), 1);
       return v.type == FieldType::SFBool ? py::object(py::bool_(v.integer != 0)) : py::object(py::int_(v.integer));
     case Element::image:
-      return array(v.integer_span(), 1);
+      return t.multiple ? py::object(fixed(pictures(v.integer_span()))) : picture(v.integer_span());
     case Element::text:
-      if (t.multiple) return py::cast(std::vector<std::string>(v.text_span().begin(), v.text_span().end()));
-      return py::str(std::string(v.text()));
+      if (t.multiple) return fixed(list_of(v.text_span(), text_value));
+      return text_value(v.text());
     case Element::node:
       if (!t.multiple) return v.node ? py::cast(PyNode{node.world, v.node}) : py::none();
-      std::vector<PyNode> nodes;
-      for (NodeId n : v.node_span()) nodes.push_back({node.world, n});
-      return py::cast(nodes);
+      return fixed(list_of(v.node_span(), [&](NodeId n) { return py::cast(PyNode{node.world, n}); }));
   }
   return py::none();
 }
@@ -45,45 +57,68 @@ py::object to_python(const PyNode& node, const Value& v) {
 NodeId node_of(const PyNode& holder, const py::handle& value) {
   if (value.is_none()) return {};
   const auto& node = value.cast<const PyNode&>();
-  if (node.world != holder.world) throw py::value_error("the node is of another world");
+  if (node.world != holder.world) throw value_error("the node is of another world");
   return node.id;
 }
 
 /// What Python gives for a field of that type, in words.
 std::string expected(const FieldTypeInfo& t, FieldType type) {
-  const auto list_of = [&](const std::string& what) { return "a list of " + what; };
   switch (t.element) {
     case Element::number:
-      if (t.arity == 1) return t.multiple ? list_of("numbers") : "a number";
-      return t.multiple ? list_of(std::to_string(t.arity) + " numbers each") : std::to_string(t.arity) + " numbers";
+      if (t.arity == 1) return t.multiple ? "a list of numbers" : "a number";
+      return t.multiple ? "a list of " + std::to_string(t.arity) + " numbers each"
+                        : std::to_string(t.arity) + " numbers";
     case Element::integer:
       if (type == FieldType::SFBool) return "True or False";
-      return t.multiple ? list_of("ints") : "an int";
+      if (type == FieldType::MFBool) return "a list of True and False";
+      return t.multiple ? "a list of ints" : "an int";
     case Element::image:
-      return list_of("ints: width, height, components, pixels");
+      return (t.multiple ? "a list of arrays" : "an array") + std::string(" of bytes (height, width, components)");
     case Element::text:
-      return t.multiple ? list_of("texts") : "a str";
+      return t.multiple ? "a list of texts" : "a str";
     case Element::node:
-      return t.multiple ? list_of("Nodes") : "a Node or None";
+      return t.multiple ? "a list of Nodes" : "a Node or None";
   }
   return {};
 }
 
-/// Whether nothing of a list of numbers gets lost as integers.
-bool is_whole(const py::object& value) {
+bool is_numeric(const py::array& array) {
+  return std::string_view("biuf").find(array.dtype().kind()) != std::string_view::npos;
+}
+
+/// Other texts than those of numbers would be read as such. An object may be a fraction.
+bool may_hold_numbers(const py::array& array) {
+  return array.size() == 0 || is_numeric(array) || array.dtype().kind() == 'O';
+}
+
+/// Integers of a flat list; nothing when one gets lost as such.
+std::optional<std::vector<std::int32_t>> whole_numbers(const py::object& value) {
   const auto array = py::array::ensure(value);
-  if (!array || std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos) return false;
+  if (!array || array.ndim() > 1 || (array.size() > 0 && !is_numeric(array))) return std::nullopt;
   const auto numbers = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(array);
-  return std::all_of(numbers.data(), numbers.data() + numbers.size(), [](double v) {
+  const std::span<const double> given(numbers.data(), static_cast<std::size_t>(numbers.size()));
+  const bool are_whole = std::ranges::all_of(given, [](double v) {
     return std::trunc(v) == v && v >= std::numeric_limits<std::int32_t>::min() &&
            v <= std::numeric_limits<std::int32_t>::max();
   });
+  if (!are_whole) return std::nullopt;
+  std::vector<std::int32_t> out(given.size());
+  std::ranges::transform(given, out.begin(), [](double v) { return static_cast<std::int32_t>(v); });
+  return out;
 }
 
 /// Whether an array holds tuples of so many numbers: one after the other, or each in a row of its own.
 bool fits(const py::array& array, std::size_t arity) {
-  const auto last = array.ndim() > 0 ? static_cast<std::size_t>(array.shape(array.ndim() - 1)) : 1;
-  return array.ndim() < 2 ? static_cast<std::size_t>(array.size()) % arity == 0 : last == arity;
+  if (array.ndim() < 2) return static_cast<std::size_t>(array.size()) % arity == 0;
+  return array.ndim() == 2 && static_cast<std::size_t>(array.shape(1)) == arity;
+}
+
+/// True or False, also as NumPy has them, 1 and 0; nothing for what has a truth only in passing.
+std::optional<bool> truth(const py::object& value) {
+  const auto numbers = whole_numbers(value);
+  if (!numbers || numbers->size() != 1 || py::isinstance<py::sequence>(value)) return std::nullopt;
+  const auto number = numbers->front();
+  return number == 0 || number == 1 ? std::optional(number == 1) : std::nullopt;
 }
 
 /// 1.0000000000000004, as arithmetic gives it, is 1 where no more is allowed.
@@ -109,26 +144,27 @@ Value new_part(const PyNode& node, const Value& value) {
 /// What a file would be warned of is an error of the program that sets it.
 void require_valid(const PyNode& node, const FieldDef& field, const Value& value) {
   if (!std::ranges::all_of(value.number_span(), [](double v) { return std::isfinite(v); }))
-    throw py::value_error(std::string(node.type().name) + "." + std::string(field.name) + ": not a finite number");
+    throw value_error(full_name(node, field.name) + ": not a finite number");
   Diagnostics faults;
   check_value(node.scene(), node.id, value, faults);
-  if (!faults.messages().empty()) throw py::value_error(faults.messages()[0].text());
+  if (!faults.messages().empty()) throw value_error(faults.messages()[0].text());
 }
 
 Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value) {
   const auto& t = info(field.type);
   Scene& scene = node.scene();
   const auto wrong = [&] {
-    return py::type_error(std::string(node.type().name) + "." + std::string(field.name) +
-                          (t.name[0] == 'S' || t.name[0] == 'M' ? " is an " : " is a ") + std::string(t.name) + ": " +
-                          expected(t, field.type) + ", not " + shown_value(value));
+    return type_error(full_name(node, field.name) + (t.name[0] == 'S' || t.name[0] == 'M' ? " is an " : " is a ") +
+                      std::string(t.name) + ": " + expected(t, field.type) + ", not " + shown_value(value));
   };
   try {
     switch (t.element) {
       case Element::number: {
         if (t.arity == 1 && !t.multiple)
           return scene.make(field.type, slot, without_rounding(field.range, value.cast<double>()));
-        const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(value);
+        const auto given_array = py::array::ensure(value);
+        if (!given_array || !may_hold_numbers(given_array)) throw wrong();
+        const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given_array);
         if (!array || !fits(array, t.arity) || (!t.multiple && array.size() != t.arity)) throw wrong();
         const std::span<const double> given(array.data(), static_cast<std::size_t>(array.size()));
         if (!field.range.bounded()) return scene.make(field.type, slot, given);
@@ -136,19 +172,30 @@ Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot,
         std::ranges::transform(given, rounded.begin(), [&](double v) { return without_rounding(field.range, v); });
         return scene.make(field.type, slot, rounded);
       }
-      case Element::integer:
-      case Element::image: {
-        if (field.type == FieldType::SFBool) return scene.make(field.type, slot, value.cast<bool>());
+      case Element::integer: {
         if (field.type == FieldType::SFInt32) return scene.make(field.type, slot, value.cast<std::int32_t>());
-        const auto array = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>::ensure(value);
-        if (!is_whole(value) || !array) throw wrong();
-        return scene.make(field.type, slot,
-                          std::span<const std::int32_t>(array.data(), static_cast<std::size_t>(array.size())));
+        if (field.type == FieldType::SFBool) {
+          const auto is_true = truth(value);
+          return is_true ? scene.make(field.type, slot, *is_true) : throw wrong();
+        }
+        const auto numbers = whole_numbers(value);
+        const auto is_truth = [](std::int32_t v) { return v == 0 || v == 1; };
+        if (!numbers || (field.type == FieldType::MFBool && !std::ranges::all_of(*numbers, is_truth))) throw wrong();
+        return scene.make(field.type, slot, *numbers);
+      }
+      case Element::image: {
+        const auto numbers = t.multiple ? integers_of_pictures(value) : integers_of_picture(value);
+        return numbers ? scene.make(field.type, slot, *numbers) : throw wrong();
       }
       case Element::text: {
-        if (!t.multiple) return scene.make(field.type, slot, value.cast<std::string>());
-        const auto texts = py::isinstance<py::str>(value) ? std::vector{value.cast<std::string>()}
-                                                          : value.cast<std::vector<std::string>>();
+        if (!t.multiple) return scene.make(field.type, slot, bytes_of(value));
+        std::vector<std::string> texts;
+        if (py::isinstance<py::str>(value))
+          texts.push_back(bytes_of(value));
+        else if (py::isinstance<py::iterable>(value))
+          for (auto item : value) texts.push_back(bytes_of(item));
+        else
+          throw wrong();
         const std::vector<std::string_view> kept(texts.begin(), texts.end());
         return scene.make(field.type, slot, kept);
       }
@@ -173,24 +220,33 @@ std::uint16_t slot_of(const PyNode& node, const std::string& name) {
   if (slot && node.type().fields[*slot].has_value()) return *slot;
   NearestName nearest(name);
   for (const auto& f : node.type().fields) nearest.consider(f.name);
-  throw py::attribute_error(std::string(node.type().name) + " has no field '" + name + "'" + nearest.question());
+  throw attribute_error(std::string(node.type().name) + " has no field '" + name + "'" + nearest.question());
 }
 
 }  // namespace
 
 std::string shown_value(const py::object& value) {
   if (value.is_none()) return "None";
+  if (py::isinstance<py::array>(value))
+    return "an array of shape " + shown_bytes(py::str(value.attr("shape"))) + " of " +
+           shown_bytes(py::str(value.attr("dtype")));
   constexpr std::size_t longest = 60;
-  const std::string kind = py::str(value.get_type().attr("__name__")), text = py::repr(value);
+  const std::string kind = shown_bytes(py::str(value.get_type().attr("__name__"))), text = shown_bytes(py::repr(value));
   return text.size() > longest || text.find(kind) != text.npos ? "a " + kind : kind + ' ' + text;
 }
 
-py::object get_field(const PyNode& node, const std::string& name) {
-  return to_python(node, node.scene().value(node.id, slot_of(node, name)));
+FixedNodes fixed_list(const py::object& values, const std::string& owner) {
+  return py::reinterpret_borrow<FixedNodes>(
+      py::module_::import("wrlkit.lists").attr("FixedList")(values, shown_text(owner)));
 }
 
-void set_field(const PyNode& node, const std::string& name, const py::object& value) {
-  const auto slot = slot_of(node, name);
+py::object get_field(const PyNode& node, const Text& name) {
+  const auto slot = slot_of(node, name.bytes);
+  return to_python(node, node.type().fields[slot], node.scene().value(node.id, slot));
+}
+
+void set_field(const PyNode& node, const Text& name, const py::object& value) {
+  const auto slot = slot_of(node, name.bytes);
   const auto& field = node.type().fields[slot];
   const Value made = from_python(node, field, slot, value);
   if (field.range.bounded() && equal_plain(node.scene().value(node.id, slot), made)) return;

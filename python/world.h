@@ -11,64 +11,86 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "base/io/sink.h"
 #include "convert/document.h"
+#include "convert/save.h"
+#include "geometry/mesh.h"
 #include "passes/pipeline/pipeline.h"
+#include "python/text.h"
 #include "tools/cli/recipe.h"
 
 namespace wrlkit::python {
 
 namespace py = pybind11;
 
-/// Makes wrlkit.Error.
-void define_error(py::module_& module);
-/// Raises it: its text is the first error with its place, and it has all messages. The exception that a pass has ended
-/// with is its cause.
-[[noreturn]] void fail(const std::string& otherwise, const std::vector<MessageView>& messages);
-/// What a pass has ended with, for the next `fail`.
-void set_cause(py::object exception);
+/// Raises wrlkit.Error, with all messages of the work. Its text is the message that the work has ended with, with its
+/// place; `otherwise` when there is none. `cause`: the exception that a pass has ended with, or None.
+[[noreturn]] void fail(const std::string& otherwise, const std::vector<MessageView>& messages,
+                       const py::object& cause = py::none());
 
 /// Options by Python's keywords: with "_" for "-", numbers, bool, texts and lists of those.
 GivenOptions options_of_keywords(const py::kwargs& keywords);
 
-/// A world with all that reading and passes need in addition.
+/// Where files are looked for, and what the numbers of a file mean.
+struct Reading {
+  std::vector<std::string> allow;
+  std::string unit, up;
+};
+
+/// A world with all that reading and passes need in addition. One thread at a time: what another one asks of it while
+/// it is worked on raises RuntimeError.
 class PyWorld : public std::enable_shared_from_this<PyWorld> {
  public:
-  explicit PyWorld(Document document) : document_(std::move(document)) {}
+  explicit PyWorld(Document document);
   /// The world of a pass that is being run.
   PyWorld(Scene& scene, PassContext& ctx) : lent_(&scene), context_(&ctx) {}
   PyWorld(const PyWorld&) = delete;
 
-  static std::shared_ptr<PyWorld> load(const std::string& path, std::vector<std::string> allow, const std::string& unit,
-                                       const std::string& up);
+  static std::shared_ptr<PyWorld> load(const std::string& path, const Reading&);
+  static std::shared_ptr<PyWorld> load_bytes(std::string_view bytes, const std::string& name, const Reading&);
 
-  Scene& scene() { return lent_ ? *lent_ : document_->scene(); }
-  Diagnostics& diag() const { return lent_ ? context_->diag : document_->diag(); }
-  PassContext context(Statistics& stats) {
-    return {diag(), stats, lent_ ? context_->resources : document_->resources()};
+  Scene& scene() {
+    check_thread();
+    return lent_ ? *lent_ : document_->scene();
   }
+  /// Of the file; empty when it is the world of a pass.
+  std::string path() const { return document_ ? document_->path() : std::string(); }
+  std::vector<MessageView> messages() const { return lent_ ? views(context_->diag) : messages_; }
 
   using Counts = std::map<std::string, std::uint64_t>;
   Counts run(const std::string& pipeline);
   Counts apply(const std::string& pass, const py::kwargs& options);
   void save(const std::string& path, const py::kwargs& options);
+  py::bytes to_bytes(const std::string& ending, const py::kwargs& options);
   py::object info(bool recognise);
   void report(const std::string& severity, const std::string& text, const py::object& node);
+  Mesh mesh(NodeId geometry);
   /// The scene goes its own way: what Python still has of it is a copy from now on.
   void detach();
 
  private:
+  class Said;
+  class InUse;
+
+  void check_thread() const;
+  Resources* resources() const { return lent_ ? context_->resources : document_->resources(); }
   Counts run(Pipeline& pipeline);
-  /// The messages behind the first n.
-  std::vector<MessageView> said_since(std::size_t n) const;
+  Saved written(const std::string& name, const Sink* sink, const py::kwargs& options);
   /// With the same scene, whose arrays are shared.
-  Document copy() const;
+  Document copy(const PassContext&);
+  void remember(const std::vector<MessageView>&);
 
   std::optional<Document> document_;
   Scene* lent_ = nullptr;  // by a pass that is being run, with its context
   PassContext* context_ = nullptr;
+  std::vector<MessageView> messages_;  // each once
+  std::set<std::string> said_;
+  std::thread::id user_{};  // while it is worked on
 };
 
 /// A node of a world. Two are equal when they are the same node.
@@ -94,8 +116,14 @@ py::array view(py::object holder, std::span<const T> all, std::size_t width) {
 /// A value in a message: its type, and what it is where that is short.
 std::string shown_value(const py::object& value);
 
-py::object get_field(const PyNode& node, const std::string& name);
-void set_field(const PyNode& node, const std::string& name, const py::object& value);
+py::object get_field(const PyNode& node, const Text& name);
+void set_field(const PyNode& node, const Text& name, const py::object& value);
+
+/// A list that is read only, of what `owner` ("Group.children") holds.
+struct FixedNodes : py::list {
+  using py::list::list;
+};
+FixedNodes fixed_list(const py::object& values, const std::string& owner);
 
 /// Converts a file as `wrlkit convert` does, by a recipe (empty: none), a pipeline and options; returns the messages.
 std::vector<MessageView> convert(const std::string& source, const std::string& target, const std::string& recipe,
@@ -105,3 +133,12 @@ std::vector<MessageView> convert(const std::string& source, const std::string& t
 void define_passes(py::module_& module);
 
 }  // namespace wrlkit::python
+
+namespace pybind11::detail {
+
+template <>
+struct handle_type_name<wrlkit::python::FixedNodes> {
+  static constexpr auto name = const_name("List[wrlkit._wrlkit.Node]");
+};
+
+}  // namespace pybind11::detail

@@ -170,7 +170,7 @@ def test_light_of_a_patch_file(tmp_path):
     path = tmp_path / 'room.wrl'
     path.write_text(text)
     patches = str(tmp_path / 'room.xml')
-    assert wrlkit.main(['illuminate', str(path), patches, '--samples', '4', '--max-edge', '0.5']) == 0
+    subprocess.run([sys.executable, '-m', 'wrlkit', 'illuminate', str(path), patches, '--samples', '4', '--max-edge', '0.5'], check=True, capture_output=True)
     world = wrlkit.load(str(path))
     counted = world.apply('lightmap', patches=patches, smooth=True)
     assert counted['lightmap.patches'] == 384 and counted['lightmap.orphans'] == 0

@@ -14,14 +14,16 @@ try:
 except ImportError as fault:
     raise ImportError('wrlkit needs NumPy (Debian: python3-numpy)') from fault
 
-from . import _wrlkit, arguments, nodes
+from . import _wrlkit, arguments, nodes, notebook
 arguments.explain(_wrlkit, _wrlkit.World, _wrlkit.Node)
-from ._wrlkit import __version__, Error, Mesh, Message, Node, World, convert, load, main, node_types, passes
+from ._wrlkit import __version__, Mesh, Message, Node, World, convert, load, load_bytes, node_types, passes
+from .errors import Error
 from .definitions import Range, pass_
 
+World._repr_html_ = notebook.world_html
 _load_for_info = arguments.renamed(load, 'info')
 
-__all__ = ['__version__', 'Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'main', 'node_types', 'nodes', 'pass_', 'passes']
+__all__ = ['__version__', 'Error', 'Mesh', 'Message', 'Node', 'Range', 'World', 'convert', 'info', 'load', 'load_bytes', 'node_types', 'nodes', 'pass_', 'passes']
 
 
 def info(path: str, allow: Sequence[str] = (), unit: str = '', up: str = '', recognise: bool = False) -> Dict[str, Any]:

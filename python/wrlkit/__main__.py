@@ -4,7 +4,7 @@ import faulthandler
 import signal
 import sys
 
-from . import main
+from ._wrlkit import _main
 
 
 def run():
@@ -14,7 +14,7 @@ def run():
     faulthandler.enable()                    # a pass that crashes prints where
     sys.dont_write_bytecode = True
     sys.stdout = sys.stderr                  # what verbs print is data
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(_main(sys.argv[1:]))
 
 
 if __name__ == '__main__':

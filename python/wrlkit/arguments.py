@@ -9,7 +9,7 @@ import re
 RAW = 'incompatible function arguments'  # of pybind11
 PATH = 'a path (str or pathlib.Path)'
 # Types of signatures: what they are called, and the classes of Python that fit.
-KINDS = {'str': ('a str', str), 'os.PathLike': (PATH, (str, os.PathLike)), 'bool': ('True or False', bool), 'int': ('an int', numbers.Integral),
+KINDS = {'str': ('a str', str), 'bytes': ('bytes', bytes), 'os.PathLike': (PATH, (str, os.PathLike)), 'bool': ('True or False', bool), 'int': ('an int', numbers.Integral),
          'float': ('a number', numbers.Real), 'wrlkit._wrlkit.Node': ('a Node', ()), 'wrlkit._wrlkit.World': ('a World', ())}
 PLURALS = {'os.PathLike': 'paths', 'str': 'texts', 'wrlkit._wrlkit.Node': 'Nodes'}
 
