@@ -10,6 +10,7 @@
 
 #include "convert/tiles.h"
 #include "convert/tiles/coarser.h"
+#include "convert/tiles/farthest_point.h"
 #include "convert/tiles/looks.h"
 #include "convert/tiles/piece_store.h"
 #include "convert/tiles/reading_progress.h"
@@ -317,6 +318,26 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
     }
     CHECK(tiles::surface_error(small, {&whole, 1}) == Approx(0.2).epsilon(0.03));
   }
+}
+
+TEST_CASE("tiles: full triangles that lie across coarse ones are cut along these", "[tiles]") {
+  // Both the same two squares in a plane, cut along other diagonals, and a roof of coarse ones above one ridge.
+  const auto full = piece("full", square(0, 0, 4));
+  auto coarse = full;
+  coarse.mesh.corners = {1, 2, 3, 1, 3, 0};
+  const auto bound = [&](const tiles::Piece& of, const tiles::Piece& to) {
+    const tiles::Soup soup({&to, 1}, {});
+    tiles::FarthestPoint farthest(soup, 1e-4);
+    farthest.add({&of, 1}, {});
+    return farthest.bound();
+  };
+  CHECK(bound(full, coarse) <= 2e-6);
+  auto roof = full;
+  roof.mesh.positions.edit() = {0, 0, 0, 0, 0, 4, 2, 1, 0, 2, 1, 4, 4, 0, 0, 4, 0, 4};
+  roof.mesh.corners = {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4};
+  // The point below the ridge is 2 / sqrt(5) from either side, and no other is farther.
+  CHECK(bound(full, roof) >= 2 / std::sqrt(5.) - 1e-4);
+  CHECK(bound(full, roof) <= 1.02 * 2 / std::sqrt(5.) + 1e-4);
 }
 
 TEST_CASE("tiles: equal appearances are one look", "[tiles]") {
