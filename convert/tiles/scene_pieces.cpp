@@ -16,6 +16,7 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/places/named_places.h"
 #include "scenegraph/places/ways.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit::tiles {
@@ -150,20 +151,26 @@ class ScenePieces {
   MeshScratch scratch_;
 };
 
-/// What a viewer of the world would see, hear or do, and one of its tiles does not.
+/// Parts, and what holds them: their names are on the way to a part.
+bool is_way(const Scene& scene, NodeId n) {
+  return scene.is(n, nodes::X3DGroupingNode) || scene.is(n, nodes::Shape) || scene.is(n, nodes::Inline);
+}
+
+/// What stands among the parts of a world, and a tile has no place for.
 bool is_lost(const Scene& scene, NodeId n) {
-  constexpr BaseSet kinds[] = {nodes::X3DLightNode,  nodes::X3DViewpointNode, nodes::X3DSensorNode,
-                               nodes::X3DScriptNode, nodes::X3DSoundNode,     nodes::X3DBackgroundNode,
-                               nodes::X3DFogObject};
   if (scene.is(n, nodes::Anchor) || scene.is(n, nodes::Billboard)) return true;
-  if (scene.is(n, nodes::Collision)) return false;  // a sensor only by its base: mostly a group
-  return std::ranges::any_of(kinds, [&](BaseSet kind) { return scene.is(n, kind); });
+  if (is_way(scene, n) || scene.is(n, nodes::X3DMetadataObject)) return false;
+  return scene.type(n).kind != NodeKind::builtin || scene.is(n, nodes::X3DChildNode);
 }
 
 void count_lost(const Scene& scene, SceneCounts& counts) {
   if (!scene.main.routes.empty()) counts.lost["ROUTE"] += scene.main.routes.size();
-  for (const NodeId n : reachable(scene, scene.main))
-    if (is_lost(scene, n)) ++counts.lost[std::string(scene.type(n).name)];
+  for (const NodeId n : reachable(scene, scene.main)) {
+    const bool lost = is_lost(scene, n);
+    if (lost) ++counts.lost[std::string(scene.type(n).name)];
+    if (!lost && has_tags(scene, n)) ++counts.lost["metadata"];
+    if (!lost && !is_way(scene, n) && !scene.name(n).empty()) ++counts.lost["names in Shapes"];
+  }
 }
 
 /// Pictures that a pass has made become part of the texture: tiles are written when the scene is gone.
