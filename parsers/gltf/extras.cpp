@@ -59,7 +59,9 @@ std::optional<std::uint16_t> slot_named(const NodeType& type, Json field) {
   if (const auto slot = type.find(field.key(), Dialect::vrml97)) return slot;
   const auto slot = type.find(field.key(), Dialect::x3d);
   const bool nodes = slot && info(type.fields[*slot].type).element == Element::node;
-  const bool may_be_unknown = field["verbatim"] || (nodes && field.key() != "metadata");
+  constexpr std::string_view of_x3d[] = {"metadata", "lineProperties", "fillProperties", "pointProperties"};
+  const bool may_be_unknown =
+      field["verbatim"] || (nodes && std::ranges::find(of_x3d, field.key()) == std::end(of_x3d));
   return may_be_unknown ? std::nullopt : slot;
 }
 

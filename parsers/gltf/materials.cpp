@@ -160,7 +160,10 @@ Look Materials::make(std::uint32_t index, SurfaceKind s) {
     if (const Json cutoff = m["alphaCutoff"])
       c_.scene.set(look.appearance, nodes::appearance::alphaCutoff, cutoff.number(0.5));
   }
-  if (c_.file.is_own()) extras_.tags(look.appearance, extras["Appearance"]);
+  if (c_.file.is_whole())
+    extras_.fields(look.appearance, extras["Appearance"]);
+  else if (c_.file.is_own())
+    extras_.tags(look.appearance, extras["Appearance"]);
   if (s.light) set_light(look.appearance, m);
   c_.set_name(look.appearance, name);
   look.appearance = same_named(look.appearance, nodes::Appearance);

@@ -4,7 +4,9 @@
 #include <iterator>
 
 #include "passes/lower_x3d/geometry.h"
+#include "scenegraph/equal.h"
 #include "scenegraph/legal_name.h"
+#include "scenegraph/metadata.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -70,6 +72,29 @@ std::vector<NodeId> children_of(Scene& scene, NodeId n, const GroupRow& row) {
   return all;
 }
 
+/// Fields that the group does not have which a node becomes, as metadata; nodes in them are reported.
+NodeId what_is_left(Scene& scene, NodeId n, const GroupRow& row, Diagnostics& diag) {
+  constexpr std::string_view shown[] = {"visible", "skin", "viewpoints"},
+                             said_of_others[] = {"joints", "segments", "sites"};
+  const auto is_in = [](const auto& list, std::string_view name) {
+    return std::ranges::find(list, name) != std::end(list);
+  };
+  std::vector<NodeId> members;
+  for (const Value& v : scene.copy_of_fields(n)) {
+    if (scene.is_extra(v) || v.is || v.slot == row.children) continue;
+    const auto& field = scene.type(n).fields[v.slot];
+    const auto kept = scene.type(row.to).find(field.name, Dialect::x3d);
+    if (equals_default(v, field) || (kept && scene.type(row.to).fields[*kept].type == v.type)) continue;
+    if (is_in(shown, field.name) || is_in(said_of_others, field.name)) continue;
+    if (field.name == "name" && v.text() == scene.name(n)) continue;
+    if (const NodeId m = metadata_of(scene, {scene.where(n), field.name}, v))
+      members.push_back(m);
+    else if (!row.does_nothing)
+      diag.report(Diag::no_vrml97_value, scene.where(n), scene.type(n).name, field.name);
+  }
+  return members.empty() ? NodeId{} : metadata_set(scene, {scene.where(n), scene.type(n).name}, members);
+}
+
 bool rename_group(Scene& scene, NodeId n, Diagnostics& diag) {
   auto row = std::ranges::find(groups, scene.type_id(n), &GroupRow::from);
   if (row == std::end(groups)) return false;
@@ -80,7 +105,9 @@ bool rename_group(Scene& scene, NodeId n, Diagnostics& diag) {
   auto fields = fields_for(scene, n, row->to);
   std::erase_if(fields, [&](const Value& v) { return v.slot == slot && !v.is; });
   if (!children.empty()) fields.push_back(scene.make(FieldType::MFNode, slot, children));
+  const NodeId left = what_is_left(scene, n, *row, diag);
   scene.become(n, row->to, fields);
+  if (left) add_metadata(scene, n, left);
   return true;
 }
 

@@ -70,7 +70,9 @@ class Extras {
   void member(JsonOut&, NodeId, Said said);
   /// The member Type: {fields} of an object, with nothing but its tags (scenegraph/tags.h) and, `with_name`, its name.
   void tags(JsonOut&, NodeId, bool with_name = false);
-  /// Those as members of an object.
+  /// The fields of a node but for those, as members of an object.
+  void other_fields(JsonOut& json, NodeId n, Said said) { fields(json, n, said, 0); }
+  /// Tags as members of an object.
   void tag_fields(JsonOut&, NodeId);
   /// The member extras: {wrlkit: {Type: {fields}}} of a form with fields of our own (scenegraph/nodes/wrlkit.nodes).
   void form(JsonOut&, NodeId);

@@ -8,7 +8,6 @@
 #include "scenegraph/looks/picture_color.h"
 #include "scenegraph/looks/shininess.h"
 #include "scenegraph/nodes.h"
-#include "scenegraph/tags.h"
 
 namespace wrlkit::gltf {
 namespace {
@@ -375,6 +374,11 @@ std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
           p::normalTexture.slot,     p::occlusionTexture.slot};
 }
 
+/// Slots of an Appearance that the material, its textures and its alphaMode say.
+constexpr std::uint16_t said_by_appearance[] = {
+    nodes::appearance::material.slot,  nodes::appearance::texture.slot,     nodes::appearance::textureTransform.slot,
+    nodes::appearance::alphaMode.slot, nodes::appearance::alphaCutoff.slot, nodes::appearance::backMaterial.slot};
+
 /// The fields of a material that the look does not show, a picture that is not shown at all, and the light.
 void Materials::extras(JsonOut& json, const Look& l) {
   std::vector<std::uint16_t> said;
@@ -386,7 +390,7 @@ void Materials::extras(JsonOut& json, const Look& l) {
   const auto alpha_mode = l.appearance ? scene_.get(l.appearance, nodes::appearance::alphaMode) : std::string_view();
   const bool says_alpha = extras_ && !alpha_mode.empty() && alpha_mode != "AUTO";
   const bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
-  const bool tagged = extras_ && has_tags(scene_, l.appearance);
+  const bool says_more = extras_ && l.appearance && extras_->anything(l.appearance, said_by_appearance);
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
   // For a Material alone: a picture that is multiplied, not one that takes the place of the colour.
@@ -396,16 +400,16 @@ void Materials::extras(JsonOut& json, const Look& l) {
   const bool light = l.light.texture != none && (lightmaps_ == As::extras || lightmaps_ == As::occlusion);
   for (NodeId n : {l.appearance, l.material, l.texture.texture == none ? NodeId{} : l.texture_node})
     if (n && extras_) extras_->set_placed(n);
-  if (!material && !picture && !named && !tagged && !says_alpha && !transform && !multiplied && !light) return;
+  if (!material && !picture && !named && !says_more && !says_alpha && !transform && !multiplied && !light) return;
   json.object("extras", [&] {
     if (light) light_extras(json, l);
-    if (material || picture || named || tagged || says_alpha || transform || multiplied) {
+    if (material || picture || named || says_more || says_alpha || transform || multiplied) {
       json.object("vrml97", [&] {
-        if (named || says_alpha || tagged)
+        if (named || says_alpha || says_more)
           json.object("Appearance", [&] {
             if (named) json.member("DEF", extras_->name(l.appearance));
             if (says_alpha) json.member("alphaMode", alpha_mode);
-            if (tagged) extras_->tag_fields(json, l.appearance);
+            if (says_more) extras_->other_fields(json, l.appearance, said_by_appearance);
           });
         if (multiplied) json.member("multiplied", true);
         if (material) extras_->node(json, l.material, said);
