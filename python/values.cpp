@@ -129,7 +129,7 @@ double without_rounding(const FieldRange& range, double v) {
   return v;
 }
 
-/// What the field does not hold yet. What it holds may be wrong already: files are.
+/// What the field does not hold yet.
 Value new_part(const PyNode& node, const Value& value) {
   Scene& scene = node.scene();
   const Value& before = scene.value(node.id, value.slot);
@@ -249,7 +249,8 @@ void set_field(const PyNode& node, const Text& name, const py::object& value) {
   const auto slot = slot_of(node, name.bytes);
   const auto& field = node.type().fields[slot];
   const Value made = from_python(node, field, slot, value);
-  if (field.range.bounded() && equal_plain(node.scene().value(node.id, slot), made)) return;
+  // What it holds may be wrong already: files are.
+  if (info(field.type).element != Element::node && equal_plain(node.scene().value(node.id, slot), made)) return;
   require_valid(node, field, new_part(node, made));
   node.scene().set(node.id, made);
 }

@@ -19,6 +19,11 @@
 namespace wrlkit::python {
 namespace {
 
+/// NumPy's numbers and arrays as Python's.
+py::object plain(const py::handle& value) {
+  return py::hasattr(value, "tolist") ? value.attr("tolist")() : py::reinterpret_borrow<py::object>(value);
+}
+
 std::string text_of(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   return bytes_of(py::str(value));
@@ -87,12 +92,13 @@ void fail(const std::string& otherwise, const std::vector<MessageView>& messages
 
 GivenOptions options_of_keywords(const py::kwargs& keywords) {
   GivenOptions out;
-  for (const auto& [key, value] : keywords) {
-    auto name = key.cast<std::string>();
+  for (const auto& [key, given] : keywords) {
+    auto name = bytes_of(key);
     std::ranges::replace(name, '_', '-');
+    const auto value = plain(given);
     std::vector<std::string> values;
     if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value))
-      for (auto item : value) values.push_back(text_of(item));
+      for (auto item : value) values.push_back(text_of(plain(item)));
     else
       values.push_back(text_of(value));
     out.emplace_back(std::move(name), std::move(values));

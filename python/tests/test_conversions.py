@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 import wrlkit
 
@@ -28,6 +29,14 @@ def test_save_has_the_options_of_convert(tmp_path, name, options, words):
     target = tmp_path / name
     wrlkit.load(PUMP_ROOM).save(str(target), **options)
     assert target.read_bytes() == bytes_of(tmp_path, name, *words)
+
+
+def test_options_may_be_numpys(tmp_path):
+    world = wrlkit.load(PUMP_ROOM)
+    counted = wrlkit.load(PUMP_ROOM).apply('lod', ratios=[0.5, 0.25], min_faces=100)
+    assert world.apply('lod', ratios=np.array([0.5, 0.25]), min_faces=np.int64(100)) == counted
+    world.apply('tessellate', triangles=np.True_, tolerance=np.float64(0.001))
+    world.save(tmp_path / 'out.wrl', precision=np.int32(3))
 
 
 def test_faults_of_options(tmp_path):

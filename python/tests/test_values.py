@@ -109,6 +109,14 @@ def test_what_may_not_be_written(tmp_path, node, field, value, fault):
     assert repr(made[field]) == before
 
 
+def test_what_a_faulty_file_has_may_be_written_back(tmp_path):
+    font, = world_of(tmp_path, 'FontStyle { justify "CENTRE" }').roots
+    font.justify = font.justify
+    with pytest.raises(ValueError, match='FontStyle.justify'):
+        font.justify = ['RIGTH']
+    assert font.justify == ['CENTRE']
+
+
 def test_pictures(tmp_path):
     """As NumPy, Pillow and matplotlib have them: the top row first, which is the last in the file."""
     world = world_of(tmp_path, 'PixelTexture { image 2 2 3 0xff0000 0x00ff00 0x0000ff 0x010203 } PixelTexture { image 1 2 1 5 7 } PixelTexture { image 2 2 4 0 }')
