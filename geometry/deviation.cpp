@@ -11,6 +11,7 @@
 #include "base/hashing.h"
 #include "base/math/vec.h"
 #include "base/parallel.h"
+#include "geometry/closest_of_label.h"
 
 namespace wrlkit {
 namespace {
@@ -46,20 +47,30 @@ std::vector<Key> sorted_keys(const Triangles& surface) {
   return keys;
 }
 
-/// Which triangles of `a` are in `b`, too: with the same corners, in the same sense. Of those with equal hashes one is
+constexpr std::uint32_t no_twin = 0xffffffffu;
+
+/// For each triangle of `a` that of `b` with the same corners, in the same sense. Of those with equal hashes one is
 /// looked at; should it be another one by chance, a triangle counts as changed that is not. They are looked at in the
 /// order of the surface and not of the hashes, where each would be far from the one before.
-Marks also_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangles& b, const std::vector<Key>& keys_b) {
-  constexpr std::uint32_t none = 0xffffffffu;
-  std::vector<std::uint32_t> twin(a.size(), none);
+std::vector<std::uint32_t> twins_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangles& b,
+                                    const std::vector<Key>& keys_b) {
+  std::vector<std::uint32_t> twin(a.size(), no_twin);
   auto other = keys_b.begin();
   for (const Key& k : keys_a) {
     while (other != keys_b.end() && other->hash < k.hash) ++other;
     if (other == keys_b.end()) break;
     if (other->hash == k.hash) twin[k.triangle] = other->triangle;
   }
-  Marks marks(a.size());
-  for (std::size_t t = 0; t < marks.size(); ++t) marks[t] = twin[t] != none && turned(a[t]) == turned(b[twin[t]]);
+  for (std::size_t t = 0; t < twin.size(); ++t)
+    if (twin[t] != no_twin && turned(a[t]) != turned(b[twin[t]])) twin[t] = no_twin;
+  return twin;
+}
+
+/// Which triangles of `a` are in `b`, too.
+Marks also_in(const Triangles& a, const std::vector<Key>& keys_a, const Triangles& b, const std::vector<Key>& keys_b) {
+  const auto twins = twins_in(a, keys_a, b, keys_b);
+  Marks marks(twins.size());
+  std::ranges::transform(twins, marks.begin(), [](std::uint32_t twin) { return twin != no_twin; });
   return marks;
 }
 
@@ -113,16 +124,46 @@ Sums in_runs(std::size_t n, const std::function<Sums(std::size_t, std::size_t)>&
   return all;
 }
 
+/// Labels of the triangles of both surfaces; none at all: all that a surface has is near to all of the other.
+struct Labels {
+  std::span<const std::uint32_t> from, to;
+  std::uint32_t n = 0;
+
+  bool present() const { return n > 0; }
+};
+
+/// The other surface, or of it what has the label of the triangle that asks.
+class Target {
+ public:
+  Target(const Triangles& to, const Labels& labels) : labels_(labels) {
+    if (labels.present())
+      of_label_.emplace(to, labels.to, labels.n);
+    else
+      all_.emplace(to);
+  }
+
+  ClosestPoint::Nearest nearest(const Vec3& p, const Vec3& facing, std::uint32_t from, std::uint32_t guess) const {
+    if (all_) return all_->nearest(p, facing, guess);
+    return of_label_->nearest(p, facing, labels_.from[from], guess);
+  }
+
+ private:
+  Labels labels_;
+  std::optional<ClosestPoint> all_;
+  std::optional<ClosestOfLabel> of_label_;
+};
+
 /// One way: from the changed triangles of a surface to the other one.
 class Way {
  public:
-  Way(const Triangles& from, const Marks& unchanged, const Triangles& to) : from_(from), to_(to) {
+  Way(const Triangles& from, const Marks& unchanged, const Triangles& to, const Labels& labels = {})
+      : from_(from), to_(to), labels_(labels) {
     for (std::uint32_t t = 0; t < from.size(); ++t) {
       auto corners = from[t];
       if (!is_usable(corners)) continue;
       double area = length(area_normal(corners)) / 2;
       all_area_ += area;
-      if (unchanged[t]) continue;
+      if (unchanged[t] || (labels.present() && labels.from[t] >= labels.n)) continue;
       changed_.push_back(t);
       area_.push_back(changed_area_ += area);
     }
@@ -130,7 +171,7 @@ class Way {
 
   OneSidedDeviation measure(std::size_t n_samples) {
     if (changed_.empty()) return {};
-    nearest_.emplace(to_);
+    nearest_.emplace(to_, labels_);
     auto points = corners();
     Sums at_corners = in_runs(points.size(), [&](auto begin, auto end) {
       return ask_corners({points.data() + begin, end - begin});
@@ -152,23 +193,31 @@ class Way {
   }
 
  private:
-  /// Positions of changed triangles, each once.
-  std::vector<std::uint32_t> corners() const {
-    std::vector<std::uint32_t> out;
+  struct Corner {
+    std::uint32_t position, triangle;
+  };
+
+  std::uint32_t label_of(const Corner& corner) const { return labels_.present() ? labels_.from[corner.triangle] : 0; }
+
+  /// Positions of changed triangles, each once for each label.
+  std::vector<Corner> corners() const {
+    std::vector<Corner> out;
     out.reserve(changed_.size() * 3);
     for (auto t : changed_)
-      out.insert(out.end(), &from_.corners[t * std::size_t{3}], &from_.corners[t * std::size_t{3}] + 3);
-    std::ranges::sort(out);
-    out.erase(std::unique(out.begin(), out.end()), out.end());
+      for (std::size_t k = 0; k < 3; ++k) out.push_back({from_.corners[t * std::size_t{3} + k], t});
+    const auto key = [&](const Corner& c) { return std::pair(c.position, label_of(c)); };
+    std::ranges::sort(out, {}, key);
+    const auto rest = std::ranges::unique(out, {}, key);
+    out.erase(rest.begin(), rest.end());
     return out;
   }
 
-  Sums ask_corners(std::span<const std::uint32_t> points) const {
+  Sums ask_corners(std::span<const Corner> corners) const {
     Sums sums;
     auto guess = ClosestPoint::no_guess;
-    for (auto i : points) {
-      Vec3 point = from_.position(i);
-      auto found = nearest_->nearest(point, {}, guess);
+    for (const Corner& c : corners) {
+      Vec3 point = from_.position(c.position);
+      auto found = nearest_->nearest(point, {}, c.triangle, guess);
       sums.add_distance(found, point);
       guess = found.triangle;
       if (sums.too_costly()) break;
@@ -217,7 +266,7 @@ class Way {
   void ask(Sample& s, Sums& sums) const {
     auto t = from_[s.triangle];
     Vec3 normal = unit(area_normal(t)), p = point_at(t, s.u, s.v);
-    auto found = nearest_->nearest(p, normal, s.nearest);
+    auto found = nearest_->nearest(p, normal, s.triangle, s.nearest);
     s.distance = found.distance;
     s.nearest = found.triangle;
     sums.add_distance(found, p);
@@ -237,7 +286,7 @@ class Way {
       for (auto& w : ways) {
         double u = at.u + step * w[0], v = at.v + step * w[1];
         if (u < 0 || v < 0 || u + v > 1) continue;
-        double d = nearest_->nearest(point_at(t, u, v), {}, at.nearest).distance;
+        double d = nearest_->nearest(point_at(t, u, v), {}, at.triangle, at.nearest).distance;
         if (d > at.distance) {
           at.u = u;
           at.v = v;
@@ -259,7 +308,8 @@ class Way {
   }
 
   const Triangles &from_, &to_;
-  std::optional<ClosestPoint> nearest_;
+  Labels labels_;
+  std::optional<Target> nearest_;
   std::vector<std::uint32_t> changed_;
   std::vector<double> area_;  // of the changed triangles up to each, and with it
   double changed_area_ = 0, all_area_ = 0;
@@ -297,6 +347,16 @@ Deviation measure_deviation(const Triangles& a, const Triangles& b, const Deviat
   const std::size_t n = number_of_samples(a, b, options);
   auto forward = Way(a, in_b, b).measure(n);
   return both(forward, Way(b, in_a, a).measure(n));
+}
+
+OneSidedDeviation measure_labeled(const LabeledTriangles& from, const LabeledTriangles& to, std::uint32_t n_labels) {
+  const auto keys_from = sorted_keys(from.surface), keys_to = sorted_keys(to.surface);
+  const auto twins = twins_in(from.surface, keys_from, to.surface, keys_to);
+  Marks unchanged(twins.size());
+  for (std::size_t t = 0; t < twins.size(); ++t)
+    unchanged[t] = twins[t] != no_twin && from.labels[t] == to.labels[twins[t]];
+  const Labels labels{from.labels, to.labels, n_labels};
+  return Way(from.surface, unchanged, to.surface, labels).measure(number_of_samples(from.surface, to.surface, {}));
 }
 
 }  // namespace wrlkit

@@ -39,4 +39,15 @@ struct DeviationOptions {
 /// number.
 Deviation measure_deviation(const Triangles& a, const Triangles& b, const DeviationOptions& options = {});
 
+/// A surface whose triangles have labels, such as colours.
+struct LabeledTriangles {
+  Triangles surface;
+  std::span<const std::uint32_t> labels;
+};
+
+/// How far the regions of a surface reach beyond those of another one: from each point to the nearest one with the same
+/// label, sampled as above. Triangles whose label is not below `n_labels` are left out. Infinite where the other
+/// surface has nothing with a label.
+OneSidedDeviation measure_labeled(const LabeledTriangles& from, const LabeledTriangles& to, std::uint32_t n_labels);
+
 }  // namespace wrlkit

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/math/vec.h"
@@ -21,13 +22,12 @@ constexpr std::array<double, 2> middles[] = {{1. / 6, 1. / 6}, {1. / 3, 1. / 3},
 
 }  // namespace
 
-FittedSurface::FittedSurface(PlainMesh mesh, const Triangles& surface, const ClosestPoint& original,
-                             std::span<const SurfaceSample> samples)
-    : surface_(surface),
-      original_(original),
+FittedSurface::FittedSurface(PlainMesh mesh, const Original& original, std::span<const SurfaceSample> samples)
+    : original_(original),
       samples_(samples),
       position_(std::move(mesh.positions)),
       face_(std::move(mesh.faces)),
+      region_(std::move(mesh.regions)),
       alive_(face_.size(), 1),
       backward_(face_.size()),
       faces_of_(position_.size()),
@@ -84,6 +84,7 @@ void FittedSurface::assign_all() {
     corners.insert(corners.end(), face_[f].begin(), face_[f].end());
   }
   if (number.empty()) return;
+  if (!region_.empty()) return assign_by_regions(flat);
   const ClosestPoint nearest(Triangles{flat, corners});
   auto guess = ClosestPoint::no_guess;
   for (std::uint32_t s = 0; s < samples_.size(); ++s) {
@@ -93,6 +94,50 @@ void FittedSurface::assign_all() {
     squared_[s] = found.distance * found.distance;
     samples_of_[number[guess]].push_back(s);
   }
+}
+
+/// To the nearest face of the region of each, or to one of another region that is nearer nevertheless.
+void FittedSurface::assign_by_regions(std::span<const double> positions) {
+  std::vector<std::uint32_t> corners, number, regions;
+  for (std::uint32_t f = 0; f < face_.size(); ++f) {
+    if (!alive_[f]) continue;
+    number.push_back(f);
+    regions.push_back(region_[f]);
+    corners.insert(corners.end(), face_[f].begin(), face_[f].end());
+  }
+  const Triangles all{positions, corners};
+  const ClosestPoint nearest(all);
+  const ClosestOfLabel of_region(all, regions, original_.regions->n_labels());
+  auto guess = ClosestPoint::no_guess, own_guess = ClosestPoint::no_guess;
+  for (std::uint32_t s = 0; s < samples_.size(); ++s) {
+    const auto& sample = samples_[s];
+    const auto any = nearest.nearest(sample.point, {}, guess);
+    if (any.triangle == ClosestPoint::no_guess) continue;
+    guess = any.triangle;
+    auto found = any.triangle;
+    squared_[s] = any.distance * any.distance;
+    if (regions[found] != sample.region) {
+      const auto own = of_region.nearest(sample.point, {}, sample.region, own_guess);
+      own_guess = own.triangle;
+      squared_[s] += sample.squared_depth;
+      if (own.distance * own.distance < squared_[s]) {
+        squared_[s] = own.distance * own.distance;
+        found = own.triangle;
+      }
+    }
+    samples_of_[number[found]].push_back(s);
+  }
+}
+
+/// Of the faces whose corners are listed.
+void FittedSurface::list_regions(std::span<const std::uint32_t> faces) {
+  regions_.clear();
+  for (std::size_t i = 0; i < faces.size() && !region_.empty(); ++i) regions_.push_back(region_[faces[i]]);
+}
+
+void FittedSurface::add_point(std::uint32_t sample) {
+  const auto& s = samples_[sample];
+  region_.empty() ? points_.add(s.point) : points_.add(s.point, s.region, s.squared_depth);
 }
 
 /// Of all samples to all faces again.
@@ -112,8 +157,8 @@ void FittedSurface::measure_backward() {
   backward_all_ = {};
   for (std::uint32_t f = 0; f < face_.size(); ++f) {
     if (!alive_[f]) continue;
-    backward_[f] = backward(corners_of(face_[f], none, {}), &backward_all_);
-    measure_edges(corners_of(face_[f], none, {}), 2 * spacing_, original_, surface_, backward_all_);
+    backward_[f] = backward(corners_of(face_[f], none, {}), region_of(f), &backward_all_);
+    measure_edges(corners_of(face_[f], none, {}), region_of(f), 2 * spacing_, original_, backward_all_);
   }
   double area = 0, squares = backward_all_.squares;
   for (std::uint32_t s = 0; s < samples_.size(); ++s) {
@@ -125,10 +170,10 @@ void FittedSurface::measure_backward() {
 
 /// A thin face may have all its samples at one end: where the other end goes costs nothing, but it would be seen.
 Vec3 FittedSurface::within_reach(const Vec3& x) const {
-  const auto found = original_.nearest(x, {}, guess_);
+  const auto found = original_.nearest.nearest(x, {}, guess_);
   if (found.triangle == ClosestPoint::no_guess || found.distance <= reach_) return x;
   guess_ = found.triangle;
-  return x + (1 - reach_ / found.distance) * way_to(x, surface_[found.triangle]);
+  return x + (1 - reach_ / found.distance) * way_to(x, original_.surface[found.triangle]);
 }
 
 /// With `v` at `x`.
@@ -140,7 +185,7 @@ std::array<Vec3, 3> FittedSurface::corners_of(const Face& f, std::uint32_t v, co
 
 /// The integral of the squared distance from a face to the original, by the middles of equal parts of it, or where they
 /// are many, by points that are spread evenly: a face across a notch has to be found out.
-double FittedSurface::backward(const std::array<Vec3, 3>& c, Distortion* all) const {
+double FittedSurface::backward(const std::array<Vec3, 3>& c, std::uint32_t region, Distortion* all) const {
   const double area = fast_length(area_normal(c)) / 2;
   const double longest = std::max({fast_length(c[1] - c[0]), fast_length(c[2] - c[1]), fast_length(c[0] - c[2])});
   const double wanted = std::max(longest / (2 * spacing_), area / (2 * spacing_ * spacing_));
@@ -149,10 +194,10 @@ double FittedSurface::backward(const std::array<Vec3, 3>& c, Distortion* all) co
   for (int i = 0; i < n; ++i) {
     const auto at = n > 4 ? spread_in_triangle(i + 0.5) : middles[static_cast<std::size_t>(n == 1 ? 1 : i)];
     const Vec3 p = c[0] + at[0] * (c[1] - c[0]) + at[1] * (c[2] - c[0]);
-    const auto found = original_.nearest(p, {}, guess_);
+    const auto found = original_.ask(p, region, guess_);
     guess_ = found.triangle;
     sum += found.distance * found.distance;
-    if (all && guess_ != ClosestPoint::no_guess) all->add(way_to(p, surface_[guess_]), area / n);
+    if (all && guess_ != ClosestPoint::no_guess) all->add(way_to(p, original_.surface[guess_]), area / n);
   }
   return area * sum / n;
 }
@@ -214,7 +259,7 @@ void FittedSurface::ask(std::size_t most, const Vec3& origin) {
   for (const std::size_t first : {std::size_t{0}, stride})
     for (std::size_t i = first; i < samples.size(); i += 2 * stride) asked_.push_back(samples[i]);
   points_.reset(origin);
-  for (auto s : asked_) points_.add(samples_[s].point);
+  for (auto s : asked_) add_point(s);
 }
 
 /// The integral over the samples, by the first `n` of those asked, and a better place for the vertex: where the squares
@@ -222,7 +267,8 @@ void FittedSurface::ask(std::size_t most, const Vec3& origin) {
 double FittedSurface::forward(std::uint32_t v, const Vec3& x, std::size_t n, Vec3* better) {
   corners_.clear();
   for (const auto& f : merged_.faces) corners_.push_back(corners_of(f, v, x));
-  nearest_faces(corners_, n, points_);
+  list_regions(merged_.slots);
+  nearest_faces(corners_, n, points_, regions_);
   double cost = 0, sum = 0, all = 0;
   Vec3 right{};
   for (std::size_t i = 0; i < n; ++i) {
@@ -314,10 +360,14 @@ std::optional<double> FittedSurface::price_of_removal(std::uint32_t f) {
   merged_.samples = samples_of_[f];
   ask(most_asked, c[0]);
   const Vec3 middle = (1. / 3) * (c[0] + c[1] + c[2]);
-  for (const Vec3& corner : c) points_.add(0.5 * (corner + middle));
+  for (const Vec3& corner : c) {
+    const Vec3 between = 0.5 * (corner + middle);
+    region_.empty() ? points_.add(between) : points_.add(between, region_[f], std::numeric_limits<double>::infinity());
+  }
   corners_.clear();
   for (auto o : others) corners_.push_back(corners_of(face_[o], none, {}));
-  nearest_faces(corners_, points_.n, points_);
+  list_regions(others);
+  nearest_faces(corners_, points_.n, points_, regions_);
   double cost = -backward_[f], seen = 0, known = 0;
   for (std::size_t i = 0; i < asked_.size(); ++i) {
     const auto s = asked_[i];
@@ -337,10 +387,11 @@ std::optional<double> FittedSurface::price_of_removal(std::uint32_t f) {
 void FittedSurface::assign(std::span<const std::uint32_t> samples, std::span<const std::uint32_t> faces) {
   if (samples.empty()) return;
   points_.reset(samples_[samples[0]].point);
-  for (auto s : samples) points_.add(samples_[s].point);
+  for (auto s : samples) add_point(s);
   corners_.clear();
   for (auto f : faces) corners_.push_back(corners_of(face_[f], none, {}));
-  nearest_faces(corners_, points_.n, points_);
+  list_regions(faces);
+  nearest_faces(corners_, points_.n, points_, regions_);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     squared_[samples[i]] = static_cast<double>(points_.squared[i]);
     samples_of_[faces[static_cast<std::size_t>(points_.face[i])]].push_back(samples[i]);
@@ -434,8 +485,10 @@ bool FittedSurface::step_of_edge(const Entry& e) {
     return true;
   };
   if (waits()) return false;
-  for (const auto& f : merged_.faces)
-    merged_.cost += merged_.backward.emplace_back(backward(corners_of(f, e.to, merged_.position)));
+  for (std::size_t i = 0; i < merged_.faces.size(); ++i) {
+    const auto corners = corners_of(merged_.faces[i], e.to, merged_.position);
+    merged_.cost += merged_.backward.emplace_back(backward(corners, region_of(merged_.slots[i])));
+  }
   if (!std::isfinite(merged_.cost) || waits()) return false;
   merge(e.from, e.to);
   return true;
@@ -480,6 +533,7 @@ PlainMesh FittedSurface::mesh() const {
   for (std::uint32_t f = 0; f < face_.size(); ++f) {
     if (!alive_[f]) continue;
     auto& face = out.faces.emplace_back(face_[f]);
+    if (!region_.empty()) out.regions.push_back(region_[f]);
     for (auto& v : face) {
       if (number[v] == none) {
         number[v] = static_cast<std::uint32_t>(out.positions.size());

@@ -15,17 +15,18 @@
 
 namespace wrlkit::simplify {
 
-/// Vertices and triangles, without anything else.
+/// Vertices and triangles, without anything else but the regions of the triangles where the surface has some.
 struct PlainMesh {
   std::vector<Vec3> positions;
   std::vector<std::array<std::uint32_t, 3>> faces;
+  std::vector<std::uint32_t> regions;
 };
 
 class FittedSurface {
  public:
-  /// `original` and `samples` are of `surface`; all must outlive this. O(n log n).
-  FittedSurface(PlainMesh mesh, const Triangles& surface, const ClosestPoint& original,
-                std::span<const SurfaceSample> samples);
+  /// `samples` are of the original; what both look at must outlive this. Where the original has regions, a sample is
+  /// near to faces of its own: to others it is as much farther as it is deep in its region. O(n log n).
+  FittedSurface(PlainMesh mesh, const Original& original, std::span<const SurfaceSample> samples);
 
   std::size_t n_faces() const { return n_faces_; }
   /// Does what adds least to the squared distances for each triangle that it saves. False when nothing may be done.
@@ -79,7 +80,13 @@ class FittedSurface {
   bool turns_over(std::uint32_t u, std::uint32_t v) const;
   double key_of_merged() const;
   std::array<Vec3, 3> corners_of(const Face& f, std::uint32_t v, const Vec3& x) const;
-  double backward(const std::array<Vec3, 3>& corners, Distortion* all = nullptr) const;
+  double backward(const std::array<Vec3, 3>& corners, std::uint32_t region, Distortion* all = nullptr) const;
+  std::uint32_t region_of(std::uint32_t face) const {
+    return region_.empty() ? ClosestOfLabel::no_label : region_[face];
+  }
+  void add_point(std::uint32_t sample);
+  void list_regions(std::span<const std::uint32_t> faces);
+  void assign_by_regions(std::span<const double> positions);
   std::optional<double> price_of_removal(std::uint32_t f);
   void merge(std::uint32_t u, std::uint32_t v);
   void remove(std::uint32_t f);
@@ -89,11 +96,11 @@ class FittedSurface {
   std::vector<std::uint32_t> around(std::uint32_t f) const;
   double cost_of(std::uint32_t sample, double squared) const;
 
-  Triangles surface_;
-  const ClosestPoint& original_;
+  Original original_;
   std::span<const SurfaceSample> samples_;
   std::vector<Vec3> position_;
   std::vector<Face> face_;
+  std::vector<std::uint32_t> region_;  // of each face; empty without any
   std::vector<char> alive_;
   std::vector<double> backward_;                        // of each face
   std::vector<std::vector<std::uint32_t>> faces_of_;    // of each vertex
@@ -112,6 +119,7 @@ class FittedSurface {
   double stands_for_ = 1;             // samples for each of them
   PointBatch points_;
   std::vector<std::array<Vec3, 3>> corners_;
+  std::vector<std::uint32_t> regions_;  // of these; empty without any
 };
 
 }  // namespace wrlkit::simplify

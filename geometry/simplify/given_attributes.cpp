@@ -26,6 +26,15 @@ Vec3 vec3_of(const float* v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
+/// Whether the corners of a triangle have one value, which rounding is not to change.
+bool is_constant(const Attribute& a, std::uint32_t triangle) {
+  const float* first = a.at(a.index[std::size_t{3} * triangle]);
+  const auto is_first = [&](std::size_t c) {
+    return std::equal(first, first + a.width, a.at(a.index[std::size_t{3} * triangle + c]));
+  };
+  return is_first(1) && is_first(2);
+}
+
 /// The value of an attribute in a triangle.
 void append(const Attribute& from, std::uint32_t triangle, const std::array<double, 3>& at, Attribute& to) {
   to.width = from.width;
@@ -89,7 +98,10 @@ void GivenAttributes::give(Mesh& level) const {
       return;
     }
     const auto at = closest_on_triangle(face[i % 3], surface_[triangle]).at;
-    for (const auto a : lacking) append(*from[a], triangle, at, *to[a]);
+    for (const auto a : lacking) {
+      const bool is_flat_color = from[a] == &part_.color && is_constant(*from[a], triangle);
+      append(*from[a], triangle, is_flat_color ? std::array{1., 0., 0.} : at, *to[a]);
+    }
     if (gives_normals) face_front(level, i, is_flat(part_, triangle) ? least_facing_of_flat : least_facing);
   }
 }

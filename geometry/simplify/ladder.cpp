@@ -4,10 +4,12 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/math/box.h"
 #include "base/math/vec.h"
+#include "geometry/flat_colors.h"
 #include "geometry/simplify/fitted_surface.h"
 #include "geometry/triangulation.h"
 
@@ -26,16 +28,25 @@ constexpr double most_missed = 0.05;  // share of the triangles of the world tha
 
 class Ladder {
  public:
-  explicit Ladder(const LadderPart& part) : part_(part), surface_(triangles_of(part.mesh)), nearest_(surface_) {
+  explicit Ladder(const LadderPart& part)
+      : part_(part),
+        samples_(part.samples.begin(), part.samples.end()),
+        surface_(triangles_of(part.mesh)),
+        nearest_(surface_),
+        colors_(FlatColors::of(part.mesh)) {
+    if (colors_) {
+      original_.regions = &regions_.emplace(surface_, colors_->regions(), colors_->n_regions());
+      find_regions(original_, samples_);
+    }
     wrlkit::Box bounds;
     double area = 0;
-    for (const auto& s : part.samples) {
+    for (const auto& s : samples_) {
       bounds.add(s.point);
       area += s.weight;
     }
     if (part.share > 0) step_ = std::clamp(1 - most_missed / part.share, coarse_step, finest_step);
     const double distance = far * diagonal(bounds);
-    spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(part.samples.size(), 1)));
+    spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(samples_.size(), 1)));
     if (fits()) far_squares_ = 2 * area * distance * distance;
   }
 
@@ -52,10 +63,26 @@ class Ladder {
   }
 
  private:
-  bool fits() const { return !part_.mesh.lightcoord.present() && !part_.samples.empty(); }
+  bool fits() const { return !part_.mesh.lightcoord.present() && !samples_.empty(); }
 
-  static PlainMesh plain(const Mesh& mesh) {
+  /// Of the faces of a level: by their colours, and where these have gone, by what is nearest. Nothing without colours.
+  std::vector<std::uint32_t> regions_in(const Mesh& level) const {
+    if (!colors_) return {};
+    auto out = colors_->regions_of(level);
+    const auto triangles = triangles_of(level);
+    auto guess = ClosestPoint::no_guess;
+    for (std::size_t f = 0; f < out.size(); ++f) {
+      if (out[f] != FlatColors::none) continue;
+      const auto t = triangles[f];
+      guess = nearest_.nearest((1. / 3) * (t[0] + t[1] + t[2]), area_normal(t), guess).triangle;
+      out[f] = guess == ClosestPoint::no_guess ? 0 : colors_->regions()[guess];
+    }
+    return out;
+  }
+
+  PlainMesh plain(const Mesh& mesh) const {
     PlainMesh out;
+    out.regions = regions_in(mesh);
     const auto triangles = triangles_of(mesh);
     for (std::uint32_t i = 0; i < mesh.n_positions(); ++i) out.positions.push_back(triangles.position(i));
     for (std::size_t i = 0; i + 2 < mesh.corners.size(); i += 3)
@@ -114,10 +141,13 @@ class Ladder {
     const ClosestPoint nearest(triangles);
     // As many questions as the level has triangles: its error is spread over its faces.
     const auto some = strided(std::clamp<std::size_t>(4 * level.n_faces(), least_samples, 8000));
-    auto d = measure_distortion(triangles, nearest, some, nearest_, surface_, some.size());
+    const auto regions = regions_in(level);
+    auto d = measure_distortion(triangles, nearest, some, original_, regions, some.size());
     for (std::size_t i = 0; i < triangles.size() && spacing_ > 0; ++i)
-      measure_edges(triangles[i], 4 * spacing_, nearest_, surface_, d);
-    push({level, 0, d, false});
+      measure_edges(triangles[i], colors_ ? regions[i] : FlatColors::none, 4 * spacing_, original_, d);
+    Rung rung{level, 0, d, false};
+    if (colors_) colors_->paint(rung.mesh, regions);
+    push(std::move(rung));
   }
 
   void push(Rung rung) {
@@ -127,10 +157,10 @@ class Ladder {
   }
 
   std::vector<SurfaceSample> strided(std::size_t n) const {
-    const std::size_t stride = std::max<std::size_t>(1, part_.samples.size() / n);
+    const std::size_t stride = std::max<std::size_t>(1, samples_.size() / n);
     std::vector<SurfaceSample> out;
-    for (std::size_t i = 0; i < part_.samples.size(); i += stride) {
-      out.push_back(part_.samples[i]);
+    for (std::size_t i = 0; i < samples_.size(); i += stride) {
+      out.push_back(samples_[i]);
       out.back().weight *= static_cast<double>(stride);
     }
     return out;
@@ -138,7 +168,7 @@ class Ladder {
 
   void fit(PlainMesh coarse) {
     const auto some = strided(std::max(samples_of_face * coarse.faces.size(), least_samples));
-    FittedSurface surface(std::move(coarse), surface_, nearest_, some);
+    FittedSurface surface(std::move(coarse), original_, some);
     std::size_t next = surface.n_faces() - 1;
     while (surface.n_faces() > 1 && surface.step()) {
       if (surface.n_faces() > next) continue;
@@ -157,14 +187,19 @@ class Ladder {
     auto& positions = rung.mesh.positions.edit();
     for (const Vec3& p : left.positions) positions.insert(positions.end(), p.begin(), p.end());
     for (const auto& f : left.faces) rung.mesh.corners.insert(rung.mesh.corners.end(), f.begin(), f.end());
+    if (colors_) colors_->paint(rung.mesh, left.regions);
     rung.mesh.crease_angle = part_.mesh.crease_angle;
     rung.mesh.ccw = part_.mesh.ccw;
     push(std::move(rung));
   }
 
   const LadderPart& part_;
+  std::vector<SurfaceSample> samples_;
   Triangles surface_;
   ClosestPoint nearest_;
+  std::optional<FlatColors> colors_;
+  std::optional<ClosestOfLabel> regions_;
+  Original original_{surface_, nearest_};
   std::vector<Rung> rungs_;
   double spacing_ = 0;  // of the samples
   double step_ = coarse_step;

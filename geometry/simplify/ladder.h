@@ -24,8 +24,10 @@ struct LadderPart {
 };
 
 /// Rungs by falling numbers of triangles, each as near as can be made; the first is the part. Edges collapse by the
-/// criterion to some hundred triangles, then on a FittedSurface, which has no attributes; a part with a lightmap goes
-/// as far as the criterion goes. Those that are no better than another with fewer triangles are left out. O(n log n).
+/// criterion to some hundred triangles, then on a FittedSurface, which has no attributes but the colours of faces
+/// (geometry/flat_colors.h), of which each level has those of the part; a part with a lightmap goes as far as the
+/// criterion goes. A face is as far from the part as from what has its colour there. Those that are no better than
+/// another with fewer triangles are left out. O(n log n).
 std::vector<Rung> make_ladder(const LadderPart& part);
 
 /// Which rungs are on the lower convex hull of distortion over triangles, where the part is stretched: where each

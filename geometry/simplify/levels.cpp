@@ -7,6 +7,7 @@
 
 #include "base/text/nearest_name.h"
 #include "geometry/deviation.h"
+#include "geometry/flat_colors.h"
 #include "geometry/triangulation.h"
 
 namespace wrlkit {
@@ -34,6 +35,13 @@ MeshLevel measured(const Mesh& first, Mesh mesh, const CollapseOptions& options)
   round_positions(mesh, fixed);
   drop_faces_without_area(mesh);
   auto d = measure_deviation(triangles_of(first), triangles_of(mesh));
+  if (const auto colors = FlatColors::of(first)) {
+    const auto regions = colors->regions_of(mesh);
+    const auto beyond =
+        measure_labeled({triangles_of(mesh), regions}, {triangles_of(first), colors->regions()}, colors->n_regions());
+    d.max = std::max(d.max, beyond.max);
+    d.rms = std::sqrt((d.forward.rms * d.forward.rms + beyond.rms * beyond.rms) / 2);
+  }
   return {std::move(mesh), d.rms, d.max, d.normal_mean};
 }
 

@@ -1,12 +1,14 @@
 #include "geometry/simplify/nearest_faces.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 
 namespace wrlkit::simplify {
 namespace {
 
-constexpr double flat = 1e-8;  // squared sine below which a triangle is its edges
+constexpr double flat = 1e-8;          // squared sine below which a triangle is its edges
+constexpr double most_penalty = 1e30;  // of which single precision can still be added up
 
 // Vectors of GCC and Clang: loops that choose stay scalar when compilers have to make vectors of them.
 using Four = float __attribute__((vector_size(16)));
@@ -93,7 +95,8 @@ Four load(const std::vector<float>& from, std::size_t i) {
 void PointBatch::reset(const Vec3& new_origin) {
   origin = new_origin;
   n = 0;
-  for (auto* v : {&x, &y, &z}) v->clear();
+  for (auto* v : {&x, &y, &z, &penalty}) v->clear();
+  label.clear();
 }
 
 void PointBatch::add(const Vec3& p) {
@@ -105,14 +108,29 @@ void PointBatch::add(const Vec3& p) {
   ++n;
 }
 
-void nearest_faces(std::span<const std::array<Vec3, 3>> faces, std::size_t n, PointBatch& points) {
+void PointBatch::add(const Vec3& p, std::uint32_t label_of_p, double penalty_of_p) {
+  add(p);
+  label.resize(x.size());
+  penalty.resize(x.size());
+  label[n - 1] = static_cast<std::int32_t>(label_of_p);
+  penalty[n - 1] = static_cast<float>(std::min(penalty_of_p, most_penalty));
+}
+
+void nearest_faces(std::span<const std::array<Vec3, 3>> faces, std::size_t n, PointBatch& points,
+                   std::span<const std::uint32_t> labels) {
   points.squared.assign(points.x.size(), std::numeric_limits<float>::infinity());
   points.face.assign(points.x.size(), 0);
   for (std::size_t k = 0; k < faces.size(); ++k) {
     const Face face(faces[k], points.origin);
     const FourInts number = FourInts{} + static_cast<std::int32_t>(k);
     for (std::size_t i = 0; i < n; i += width) {
-      const Four squared = face.squared({load(points.x, i), load(points.y, i), load(points.z, i)});
+      Four squared = face.squared({load(points.x, i), load(points.y, i), load(points.z, i)});
+      if (!labels.empty()) {
+        FourInts label;
+        std::memcpy(&label, points.label.data() + i, sizeof label);
+        const FourInts of_face = FourInts{} + static_cast<std::int32_t>(labels[k]);
+        squared += label == of_face ? Four{} : load(points.penalty, i);
+      }
       const Four before = load(points.squared, i);
       FourInts which;
       std::memcpy(&which, points.face.data() + i, sizeof which);

@@ -201,8 +201,19 @@ double Stretch::max(const Distortion& d) const {
   return std::sqrt(std::max(applied(most_, longest.products), 0.));
 }
 
-void measure_edges(const std::array<Vec3, 3>& corners, double spacing, const ClosestPoint& original,
-                   const Triangles& original_surface, Distortion& out) {
+void find_regions(const Original& original, std::span<SurfaceSample> samples) {
+  auto guess = ClosestPoint::no_guess;
+  for (auto& s : samples) {
+    guess = original.nearest.nearest(s.point, s.normal, guess).triangle;
+    if (guess == ClosestPoint::no_guess) continue;
+    s.region = original.regions->label(guess);
+    const double depth = original.regions->distance_of_others(s.point, s.region);
+    s.squared_depth = depth * depth;
+  }
+}
+
+void measure_edges(const std::array<Vec3, 3>& corners, std::uint32_t region, double spacing, const Original& original,
+                   Distortion& out) {
   constexpr double most_of_edge = 16;
   auto guess = ClosestPoint::no_guess;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -210,16 +221,16 @@ void measure_edges(const std::array<Vec3, 3>& corners, double spacing, const Clo
     const int n = static_cast<int>(std::min(fast_length(way) / spacing, most_of_edge));
     for (int i = 0; i < n; ++i) {
       const Vec3 p = corners[k] + ((i + 0.5) / n) * way;
-      const auto found = original.nearest(p, {}, guess);
+      const auto found = original.ask(p, region, guess);
       guess = found.triangle;
-      if (found.distance > out.max && guess != ClosestPoint::no_guess) out.add(way_to(p, original_surface[guess]), 0);
+      if (found.distance > out.max && guess != ClosestPoint::no_guess) out.add(way_to(p, original.surface[guess]), 0);
     }
   }
 }
 
 Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,
-                              std::span<const SurfaceSample> samples, const ClosestPoint& original,
-                              const Triangles& original_surface, std::size_t n) {
+                              std::span<const SurfaceSample> samples, const Original& original,
+                              std::span<const std::uint32_t> regions, std::size_t n) {
   Distortion out;
   auto guess = ClosestPoint::no_guess;
   for (const auto& s : samples) {
@@ -231,10 +242,10 @@ Distortion measure_distortion(const Triangles& surface, const ClosestPoint& near
   guess = ClosestPoint::no_guess;
   const Spread spread(surface);
   if (spread.area() > 0)
-    spread.for_each(n, [&](const Vec3& p, double area, std::size_t) {
-      const auto found = original.nearest(p, {}, guess);
+    spread.for_each(n, [&](const Vec3& p, double area, std::size_t face) {
+      const auto found = original.ask(p, regions.empty() ? ClosestOfLabel::no_label : regions[face], guess);
       guess = found.triangle;
-      if (guess != ClosestPoint::no_guess) out.add(way_to(p, original_surface[guess]), area);
+      if (guess != ClosestPoint::no_guess) out.add(way_to(p, original.surface[guess]), area);
     });
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/math/matrix.h"
+#include "geometry/closest_of_label.h"
 #include "geometry/closest_point.h"
 
 namespace wrlkit::simplify {
@@ -15,7 +16,25 @@ struct SurfaceSample {
   Vec3 normal{};  // of length 1; none of a corner
   /// Squared distance of something else in the world that stays: the surface itself need not be nearer.
   double enough = std::numeric_limits<double>::infinity();
+  /// The region of the surface that it is in, where that has colours, and the squared distance of the others.
+  std::uint32_t region = ClosestOfLabel::no_label;
+  double squared_depth = 0;
 };
+
+/// The surface that levels are made of, as they ask for what is nearest on it.
+struct Original {
+  const Triangles& surface;
+  const ClosestPoint& nearest;
+  const ClosestOfLabel* regions = nullptr;  // where faces of different colours meet; null: nowhere
+
+  /// Of a face of a level: what is nearest of its region, if there are any.
+  ClosestPoint::Nearest ask(const Vec3& p, std::uint32_t region, std::uint32_t guess) const {
+    return regions ? regions->nearest(p, {}, region, guess) : nearest.nearest(p, {}, guess);
+  }
+};
+
+/// Sets the regions of samples of a surface that has some, and how deep they are in them. O(n log n) for each region.
+void find_regions(const Original& original, std::span<SurfaceSample> samples);
 
 /// How far two surfaces are apart, and in which directions.
 struct Distortion {
@@ -60,12 +79,13 @@ std::vector<SurfaceSample> sample_surface(const Triangles& surface, std::size_t 
 
 /// The largest distance of the edges of a triangle from a surface, by points about that far apart: what spans a notch
 /// has an edge across it, and hardly any area there.
-void measure_edges(const std::array<Vec3, 3>& corners, double spacing, const ClosestPoint& original,
-                   const Triangles& original_surface, Distortion& out);
+void measure_edges(const std::array<Vec3, 3>& corners, std::uint32_t region, double spacing, const Original& original,
+                   Distortion& out);
 
-/// Of a surface from the samples of another one, and back, with about `n` questions on the way back.
+/// Of a surface from the samples of another one, and back, with about `n` questions on the way back: from each face to
+/// the region that it is of, if there are any.
 Distortion measure_distortion(const Triangles& surface, const ClosestPoint& nearest_on_surface,
-                              std::span<const SurfaceSample> samples, const ClosestPoint& original,
-                              const Triangles& original_surface, std::size_t n);
+                              std::span<const SurfaceSample> samples, const Original& original,
+                              std::span<const std::uint32_t> regions, std::size_t n);
 
 }  // namespace wrlkit::simplify

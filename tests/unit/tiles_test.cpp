@@ -320,6 +320,28 @@ TEST_CASE("tiles: the error of a coarse surface is that of the farthest point, e
   }
 }
 
+TEST_CASE("tiles: a coarse surface is as far from the full one as its colours are", "[tiles]") {
+  const auto painted = [](std::string name, double x, double size, std::vector<float> color) {
+    auto out = piece(std::move(name), square(x, 0, size));
+    out.mesh.color.values = std::move(color);
+    out.mesh.color.index.assign(6, 0);
+    return out;
+  };
+  const std::vector<float> red{1, 0, 0}, blue{0, 0, 1};
+  const std::vector<tiles::Piece> all{painted("a", 0, 1, red), painted("b", 1, 1, blue)};
+  const tiles::FullTile full{box_of_corners(all[0].mesh), [&all] { return all; }};
+  const auto error = [&](const std::vector<tiles::Piece>& coarse) { return tiles::surface_error(coarse, {&full, 1}); };
+  CHECK(error(all) == Approx(0).margin(1e-4));
+  CHECK(error({painted("a", 0, 1, blue), painted("b", 1, 1, red)}) == Approx(1).epsilon(0.06));
+  CHECK(error({painted("a", 0, 1, red), painted("b", 1, 1, red)}) == Approx(1).epsilon(0.06));
+  // One that nothing has there may be anything; so may colours of vertices.
+  CHECK(error({all[0], painted("b", 1, 1, {0, 1, 0})}) == Approx(0).margin(1e-4));
+  auto blended = all;
+  blended[1].mesh.color.values = {1, 0, 0, 0, 0, 1};
+  blended[1].mesh.color.index = {0, 0, 0, 0, 0, 1};
+  CHECK(error(blended) == Approx(0).margin(1e-4));
+}
+
 TEST_CASE("tiles: full triangles that lie across coarse ones are cut along these", "[tiles]") {
   // Both the same two squares in a plane, cut along other diagonals, and a roof of coarse ones above one ridge.
   const auto full = piece("full", square(0, 0, 4));
