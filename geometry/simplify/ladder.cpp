@@ -103,15 +103,17 @@ class Ladder {
       auto from_level = std::exchange(rungs_, {rungs_.front()});
       run(whole, {.criterion = freely}, level.n_faces());
       std::swap(from_level, rungs_);
-      level = run(level, {.criterion = freely}, last);
+      level = run(level, {.criterion = freely}, last, most_fitted);
       rungs_.insert(rungs_.begin() + 1, std::make_move_iterator(from_level.begin() + 1),
                     std::make_move_iterator(from_level.end()));
     }
     return plain(level);
   }
 
-  /// Rungs down to `last` triangles; the last of them that was not spoiled.
-  Mesh run(const Mesh& first, const CollapseOptions& options, std::size_t last) {
+  /// Rungs down to `last` triangles; the last of them that was not spoiled, or that has more than `at_any_price`: what
+  /// cannot be fitted because it is too large would have no rungs below, and have to leave as a whole.
+  Mesh run(const Mesh& first, const CollapseOptions& options, std::size_t last,
+           std::size_t at_any_price = std::numeric_limits<std::size_t>::max()) {
     Collapser c(first, options);
     Mesh level = first;
     for (std::size_t n = first.n_faces(); n > last;) {
@@ -123,7 +125,7 @@ class Ladder {
       n = c.n_faces();
       Mesh next = c.mesh();
       add(next);
-      if (is_spoiled() || held_back > 1.2) break;
+      if (level.n_faces() <= at_any_price && (is_spoiled() || held_back > 1.2)) break;
       level = std::move(next);
     }
     return level;

@@ -486,3 +486,26 @@ TEST_CASE("world levels: what must stay is not paid for by all the rest", "[leve
   CHECK(w.diag.messages().back().args[0].find("cannot be reached: " + std::to_string(n_left) +
                                               " a Shape below a LOD") != std::string::npos);
 }
+
+TEST_CASE("levels: what is held back with many triangles has rungs below, too", "[levels]") {
+  // Half of a vessel: a dish and a wall, whose rows can go one by one at no cost.
+  constexpr std::uint32_t n = 80, dish = 60, rows = 210;
+  Mesh mesh;
+  mesh.kind = Mesh::Kind::faces;
+  auto& points = mesh.positions.edit();
+  for (std::uint32_t row = 0; row <= rows; ++row)
+    for (std::uint32_t i = 0; i <= n; ++i) {
+      const double angle = 3.14159265358979 * i / n, tilt = 1.5707963267949 * std::min(row, dish) / dish;
+      const double radius = 0.01 + std::sin(tilt), wall = row > dish ? 0.01 * (row - dish) : 0;
+      points.insert(points.end(), {radius * std::cos(angle), wall - 0.5 * std::cos(tilt), radius * std::sin(angle)});
+      if (row == rows || i == n) continue;
+      const auto k = row * (n + 1) + i;
+      mesh.corners.insert(mesh.corners.end(), {k, k + n + 1, k + 1, k + 1, k + n + 1, k + n + 2});
+    }
+  const auto samples = sample_surface(triangles_of(mesh), 20'000);
+  const auto rungs = make_ladder({mesh, samples, {}, 0.25});
+  CHECK(rungs.back().n_faces < 100);
+  const auto few = std::ranges::find_if(rungs, [](const Rung& r) { return r.n_faces < 4000; });
+  REQUIRE(few != rungs.end());
+  CHECK(few->distortion.max < 0.02);
+}
