@@ -27,6 +27,7 @@ inline bool read(const std::string& text, LengthOption& field, const OptionNote&
   return field.read(text) && field.metres > 0;
 }
 inline bool read(const std::string& text, LightmapSize& field, const OptionNote&) { return field.read(text); }
+inline bool read(const std::string& text, GltfOrigin& field, const OptionNote&) { return field.read(text); }
 /// The name of a value as it should have been written: in any case, and units by their other names.
 template <Choice E>
 std::string forgiven(const std::string& text) {

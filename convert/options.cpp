@@ -14,6 +14,7 @@ GltfOptions gltf_options(const SaveOptions& o, bool binary) {
                           .level = o.draco_level},
           .textures = {o.texture_format, o.texture_quality, o.texture_size},
           .measure_gzip = o.measure_gzip,
+          .origin = o.origin,
           .animation_pointer = o.animation_pointer,
           .names = o.names,
           .gpu_instancing = o.gpu_instancing,

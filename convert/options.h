@@ -81,6 +81,7 @@ struct SaveOptions {
   LightmapSize lightmap_size = {};  // of VRML and X3D, too
   bool animation_pointer = false;
   SkyAs sky = SkyAs::none;
+  GltfOrigin origin = {};
   GltfOptions::Hidden hidden = GltfOptions::Hidden::dropped;
   GltfOptions::Behaviour behaviour = GltfOptions::Behaviour::extras;
   GltfCompression::Method compress = GltfCompression::Method::none;
@@ -139,6 +140,10 @@ struct SaveOptions {
       "glTF: write four or more nodes of one parent that only place the same mesh as a table of places, drawn in one "
       "call (EXT_mesh_gpu_instancing; not every viewer supports it)");
     f("names", names, "names of parts in glTF");
+    f("origin", origin,
+      "place of the scene that becomes the origin of glTF, in metres; auto: one in its middle where it is far away; "
+      "none: its own",
+      OptionNote{.type = GltfOrigin::type});
     f("color-bits", color_bits, "bits per component of a colour, in linear light", OptionNote{between(1, 16)});
   }
   void file_fields(auto&& f) {

@@ -163,6 +163,7 @@ bool write_content(std::span<const Piece> pieces, std::vector<Repeat> repeats, c
   content.add(pieces, std::move(repeats), budget.draws);
   auto gltf = options;
   gltf.sources = sources_of(pieces);
+  gltf.origin.kind = GltfOrigin::Kind::none;  // a tile says where it is itself
   const MeshSource meshes = [&](NodeId geometry) -> const Mesh& { return content.mesh(geometry); };
   for (int size = largest_reduced;; size /= 2) {
     Diagnostics said;

@@ -16,6 +16,8 @@ std::string option_key(TilesOptions options) {
       out += std::to_string(std::bit_cast<std::uint64_t>(value.metres));
     else if constexpr (std::is_same_v<Value, LightmapSize>)
       out += value.pass_option();
+    else if constexpr (std::is_same_v<Value, GltfOrigin>)
+      out += value.print();
     else
       out += std::to_string(static_cast<int>(value));
   };

@@ -166,10 +166,12 @@ void Animations::move(Json sampler, std::uint32_t node, std::string_view path, N
   auto t = track(sampler, rotates ? 4 : 3);
   if (!t) return;
   std::vector<double> key, value;
+  const Vec3 back = path == "translation" ? hierarchy_.moved_back(node) : Vec3{};
   for (std::size_t i = 0; i < t->time.size(); ++i) {
     key.push_back(std::clamp(t->time[i] / whole, 0.0, 1.0));
-    const auto& v = t->value[i];
+    auto& v = t->value[i];
     if (!rotates) {
+      for (std::size_t k = 0; k < back.size(); ++k) v[k] += back[k];
       value.insert(value.end(), v.begin(), v.end());
       continue;
     }

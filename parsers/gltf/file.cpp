@@ -77,7 +77,8 @@ bool File::read() {
     Json holder = static_cast<Table>(t) == Table::lights ? root_["extensions"]["KHR_lights_punctual"] : root_;
     tables_[t] = holder[names[t]].elements();
   }
-  own_ = asset["generator"].text() == "wrlkit" && asset["extras"]["vrml97"].is_object();
+  made_here_ = asset["generator"].text() == "wrlkit";
+  own_ = made_here_ && asset["extras"]["vrml97"].is_object();
   whole_ = own_ && !asset["extras"]["vrml97"]["facts"].boolean();
   return true;
 }

@@ -50,6 +50,8 @@ class File {
   /// The index that a member holds; `none` when it is not there, or, which is reported, points at nothing.
   std::uint32_t index(Table, Json reference);
 
+  /// Written by wrlkit, with extras or without.
+  bool is_made_here() const { return made_here_; }
   /// Written by wrlkit with extras: what it leaves out has the default of VRML.
   bool is_own() const { return own_; }
   /// And with all extras, so that what meshes and materials leave out has the default of VRML, too; without that
@@ -72,7 +74,7 @@ class File {
   JsonDocument document_;
   Json root_;
   std::array<std::vector<Json>, n_tables> tables_;
-  bool own_ = false, whole_ = false;
+  bool made_here_ = false, own_ = false, whole_ = false;
 };
 
 inline bool is_glb(std::string_view bytes) { return bytes.starts_with("glTF"); }

@@ -60,7 +60,8 @@ void Hierarchy::build() {
   auto add = [&](Json scene) {
     Nodes all;
     Vec3 origin{0, 0, 0};
-    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3 && c_.file.is_own()) origin = {v[0], v[1], v[2]};
+    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3 && c_.file.is_made_here())
+      origin = {v[0], v[1], v[2]};
     PartGroups groups;
     part_groups_ = &groups;
     for (Json n : scene["nodes"].elements())
@@ -145,9 +146,11 @@ void Hierarchy::make(std::uint32_t n, std::size_t depth, Vec3 origin, Nodes& out
   if (c_.file.is_own() && instancing(json) && c_.file.index(Table::meshes, json["mesh"]) != none) {
     return own_instances(n, origin, out);
   }
-  const bool passes_on = place.is_identity() && !json["mesh"] && !json["camera"] && !light_of(json);
+  const bool passes_on =
+      place.is_identity() && !json["translation"] && !json["mesh"] && !json["camera"] && !light_of(json);
   if (!passes_on) {
-    for (std::size_t i = 0; i < 3; ++i) place.translation[i] += origin[i];
+    place.translation = place.translation + origin;
+    if (origin != Vec3{0, 0, 0} && !c_.file.is_own()) moved_back_.emplace(n, origin);
     origin = {};
   }
   if (extras.is_object() && extras.begin() == extras.end() && c_.file.is_own()) {  // a helper
@@ -289,7 +292,8 @@ NodeId Hierarchy::level_of_detail(std::uint32_t n, NodeId first, std::size_t dep
         std::max(range.empty() ? 0 : range.back(), ball.radius / (coverage[i] * std::tan(half_field_of_view))));
   if (range.size() + 1 == levels.size()) {
     c_.scene.set(lod, nodes::lod::range, range);
-    if (ball.center != Vec3{0, 0, 0}) c_.scene.set(lod, nodes::lod::center, ball.center);
+    const Vec3 center = ball.center + origin;
+    if (center != Vec3{0, 0, 0}) c_.scene.set(lod, nodes::lod::center, center);
   }
   return lod;
 }

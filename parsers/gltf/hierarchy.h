@@ -27,6 +27,11 @@ class Hierarchy {
   void build();
   /// What a node has become; none when it has become nothing.
   NodeId made(std::uint32_t node) const { return node < made_.size() ? made_[node] : NodeId{}; }
+  /// What was added to the translation of a node: the origin of a scene that was moved when it was written.
+  Vec3 moved_back(std::uint32_t node) const {
+    const auto i = moved_back_.find(node);
+    return i == moved_back_.end() ? Vec3{} : i->second;
+  }
   /// For each node with morph targets, the points that move.
   const std::map<std::uint32_t, std::vector<Morph>>& morphs() const { return morphs_; }
   /// What a light or camera of the file has become.
@@ -74,6 +79,7 @@ class Hierarchy {
   std::vector<std::uint32_t> parent_;
   std::vector<State> state_;
   std::vector<NodeId> made_;
+  std::map<std::uint32_t, Vec3> moved_back_;
   std::map<std::uint32_t, std::vector<Morph>> morphs_;
   PartGroups* part_groups_ = nullptr;  // of the group whose children are made
   std::map<std::uint32_t, Nodes> lights_, cameras_;

@@ -52,6 +52,24 @@ TEST_CASE("gltf document: what is far away is moved by the outermost translation
   CHECK(d.place(d.nodes[1]).translation[0] == 1.23456789 - (*d.origin)[0]);
 }
 
+TEST_CASE("gltf document: scenes are moved to the origin that is given, or stay where they are") {
+  Document d = two_meshes();
+  d.world = {{5e6, 0, 0}, {5e6 + 10, 1, 1}};
+  move_to_origin(d, {GltfOrigin::Kind::none, {}});
+  CHECK_FALSE(d.origin);
+  GltfOrigin origin;
+  CHECK_FALSE(origin.read("1,2"));
+  CHECK_FALSE(origin.read("1,2,3,4"));
+  CHECK_FALSE(origin.read("1,2,inf"));
+  CHECK_FALSE(origin.read("far"));
+  REQUIRE(origin.read("1.25,-2,3e2"));
+  CHECK(origin.print() == "1.25,-2,300");
+  move_to_origin(d, origin);
+  REQUIRE(d.origin);
+  CHECK(*d.origin == Vec3{1.25, -2, 300});
+  CHECK(d.place(d.nodes[0]).translation == Vec3{-1.25, 2, -300});
+}
+
 TEST_CASE("gltf document: transforms have the digits that a tolerance asks for, and stay when they move") {
   Document d = two_meshes();
   auto reach = [](std::uint32_t) { return 1.0; };

@@ -62,6 +62,16 @@ struct AddOption {
         ->type_name(std::string(note.type))
         ->check(fault, "", "");
   }
+  void operator()(std::string_view name, GltfOrigin& field, std::string_view help, OptionNote note) const {
+    const auto read = [&field](const std::string& text) { field.read(text); };
+    const auto fault = [](const std::string& text) {
+      return GltfOrigin().read(text) ? "" : "'" + text + "' is neither auto nor none nor three numbers: 500000,0,-20";
+    };
+    verb.add_option_function<std::string>("--" + std::string(name), read, std::string(help))
+        ->type_name(std::string(note.type))
+        ->default_str(field.print())
+        ->check(fault, "", "");
+  }
   template <Choice E>
   void operator()(std::string_view name, E& field, std::string_view help) const {
     const auto read = [&field](const std::string& text) { read_choice(text, field); };

@@ -322,6 +322,16 @@ std::string recipe_text(const GivenOptions& options, const std::vector<std::stri
   return out;
 }
 
+namespace {
+
+/// A '|' would begin the next column of a table.
+std::string in_table(std::string text) {
+  for (auto at = text.find('|'); at != text.npos; at = text.find('|', at + 2)) text.insert(at, 1, '\\');
+  return text;
+}
+
+}  // namespace
+
 std::string recipes_page() {
   std::string out =
       "# Recipes\n\nGenerated from the options of the command line by `script/docs`; do not edit. A recipe is a TOML "
@@ -340,7 +350,7 @@ std::string recipes_page() {
   for (auto section : sections) {
     out += fmt::format("\n## [{}]\n\n| key | values | |\n|---|---|---|\n", section);
     for (const auto& o : options)
-      if (recipe_section(o.name) == section) out += fmt::format("| {} | {} | {} |\n", o.name, o.type, o.help);
+      if (recipe_section(o.name) == section) out += fmt::format("| {} | {} | {} |\n", o.name, in_table(o.type), o.help);
     if (section == "messages")
       out +=
           "| error | names of messages | these are errors ([diagnostics.md](diagnostics.md) has them all) |\n| ignore "

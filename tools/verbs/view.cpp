@@ -91,6 +91,7 @@ class Viewer {
     take_scripts(scene);
     take_sounds(scene);
     const GltfOptions options{.lightmaps = GltfOptions::Lightmaps::extras,
+                              .says_origin = false,
                               .animation_pointer = true,
                               .behaviour = GltfOptions::Behaviour::interactivity,
                               .is_understood = [&scene](NodeId n) { return is_played(scene, n); }};

@@ -159,12 +159,19 @@ class Writer {
   void make_document() {
     document_ = build_hierarchy(makers_);
     add_headlight(document_, scene_);
-    move_to_origin(document_);
+    move_to_origin(document_, options_.origin);
+    report_origin();
     if (options_.names == GltfOptions::Names::table)
       make_part_rows(document_, makers_, parts_);
     else if (options_.gpu_instancing)
       make_instances(document_, makers_);
     store_instances(document_, store_);
+  }
+
+  void report_origin() {
+    if (!document_.origin || !options_.says_origin || options_.origin.kind != GltfOrigin::Kind::automatic) return;
+    const Vec3 moved = Vec3{} - *document_.origin;
+    diag_.report(Diag::moved_to_origin, {}, moved[0], moved[1], moved[2]);
   }
 
   /// What is left to do with the nodes once it is known how vertices are stored.

@@ -13,6 +13,7 @@
 #include "scenegraph/resources.h"
 #include "scenegraph/scene.h"
 #include "writers/gltf/mesh_vertices.h"
+#include "writers/gltf/origin_option.h"
 #include "writers/led_urls.h"
 
 namespace wrlkit {
@@ -95,6 +96,8 @@ struct GltfOptions {
   GltfCompression compression;
   GltfTextures textures;
   bool measure_gzip = false;  // for the summary
+  GltfOrigin origin;
+  bool says_origin = true;  // that a scene was moved is reported
   bool lights = true, cameras = true, animations = true;
   bool animation_pointer = false;  // animations of colours and the like, by KHR_animation_pointer
   /// Where names of parts stand. table: in a property table (EXT_structural_metadata), with places of equal meshes as

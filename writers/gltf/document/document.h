@@ -24,6 +24,7 @@ struct Node {
   std::uint32_t attached = none;
   Attachment attachment = Attachment::nothing;
   bool plain = true;               // the transform is what the fields of `source` say
+  bool moved = false;              // the origin is subtracted from its translation, which is said even where it is 0
   bool hidden = false;             // not shown, nor what is below it (KHR_node_visibility)
   bool lod = false;                // has an entry in Document::lods
   std::uint32_t same_as = none;    // the node that `source` has become before

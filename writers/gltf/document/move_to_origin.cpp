@@ -3,9 +3,25 @@
 #include "writers/gltf/origin.h"
 
 namespace wrlkit::gltf {
+namespace {
 
-void move_to_origin(Document& d) {
-  d.origin = world_origin(d.world);
+std::optional<Vec3> chosen(const GltfOrigin& origin, const Box& world) {
+  switch (origin.kind) {
+    case GltfOrigin::Kind::automatic:
+      return world_origin(world);
+    case GltfOrigin::Kind::given:
+      if (origin.at != Vec3{0, 0, 0}) return origin.at;
+      break;
+    case GltfOrigin::Kind::none:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void move_to_origin(Document& d, const GltfOrigin& origin) {
+  d.origin = chosen(origin, d.world);
   if (!d.origin) return;
   std::vector<std::uint32_t> open = d.roots;
   while (!open.empty()) {
@@ -19,6 +35,7 @@ void move_to_origin(Document& d) {
       continue;
     }
     if (n.transform == none) n.transform = d.add_transform({}, true);
+    n.moved = true;
     Vec3& t = d.transforms[n.transform].translation;
     for (std::size_t i = 0; i < 3; ++i) t[i] += -(*d.origin)[i];
   }

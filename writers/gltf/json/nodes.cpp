@@ -22,7 +22,10 @@ class NodeJson : public JsonPart {
         if (!title.empty()) json_.member("name", title);
       }
       if (!d_.roots.empty()) json_.member("nodes", std::span(d_.roots));
-      if (p_.extras) scene_extras();
+      if (p_.extras)
+        scene_extras();
+      else if (d_.origin)
+        json_.object("extras", [&] { json_.object("vrml97", [&] { origin(); }); });
     });
   }
 
@@ -30,7 +33,7 @@ class NodeJson : public JsonPart {
     const Node& n = d_.nodes[id];
     json_.object([&] {
       if (auto name = node_name(n); !name.empty()) json_.member("name", name);
-      if (n.transform != none) transform(d_.transforms[n.transform]);
+      if (n.transform != none) transform(d_.transforms[n.transform], n.moved);
       if (n.attachment == Attachment::mesh) json_.member("mesh", n.attached);
       if (n.attachment == Attachment::camera) json_.member("camera", n.attached);
       if (n.n_children > 0) json_.member("children", d_.children_of(n));
@@ -51,7 +54,7 @@ class NodeJson : public JsonPart {
       return;
     json_.object("extras", [&] {
       json_.object("vrml97", [&] {
-        if (d_.origin) json_.member("origin", std::span<const double>(*d_.origin));
+        if (d_.origin) origin();
         if (d_.navigation_info) p_.extras->node(json_, d_.navigation_info, {});
         if (protos) p_.extras->protos(json_, main.protos);
         list("imports", main.imports.size(), [&](std::size_t i) { p_.extras->import(json_, main.imports[i]); });
@@ -74,14 +77,17 @@ class NodeJson : public JsonPart {
     });
   }
 
+  /// What is not there cannot be made again: it is said even where nothing else is kept.
+  void origin() { json_.member("origin", std::span<const double>(*d_.origin)); }
+
   std::string_view node_name(const Node& n) const {
     if (!n.source) return n.attachment == Attachment::light ? "headlight" : "";
     if (n.attachment == Attachment::camera) return camera_name(p_.scene, n.source);
     return name_of(n.source);
   }
 
-  void transform(const Trs& t) {
-    if (t.translation != Vec3{0, 0, 0}) json_.member("translation", std::span<const double>(t.translation));
+  void transform(const Trs& t, bool moved) {
+    if (moved || t.translation != Vec3{0, 0, 0}) json_.member("translation", std::span<const double>(t.translation));
     if (!t.rotation.identity()) {
       const auto& q = t.rotation;
       json_.member("rotation", std::span<const double>(std::array{q.x, q.y, q.z, q.w}));
