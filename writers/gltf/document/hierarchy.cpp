@@ -65,7 +65,7 @@ class Builder {
   void leave();
   void set_same(std::uint32_t);
   std::uint32_t group(const Frame&);
-  std::uint32_t taken_in(NodeId child, std::uint32_t id);
+  bool fold_into_group(const Frame&, std::uint32_t child);
   std::uint32_t shape(NodeId);
   std::uint32_t light(NodeId);
   std::uint32_t viewpoint(NodeId);
@@ -354,19 +354,18 @@ void Builder::leave() {
   if (!is_aside()) frames_.back().box.unite(f.box);
 }
 
-/// What is one node with its group now is not that node wherever else it is shown.
-std::uint32_t Builder::taken_in(NodeId child, std::uint32_t id) {
-  d_.nodes[id].same_as = none;
-  if (became_[child.value] == id) became_[child.value] = none;
-  return id;
+/// What has become part of a group is nowhere by itself any more, and cannot be there once more.
+bool Builder::fold_into_group(const Frame& f, std::uint32_t child) {
+  const NodeId was = d_.nodes[child].source;
+  if (!fold(d_, m_, f.node, f.local, child)) return false;
+  d_.nodes[child].same_as = none;
+  if (was && became_[was.value] == child) became_[was.value] = none;
+  return true;
 }
 
 std::uint32_t Builder::group(const Frame& f) {
   std::span<const std::uint32_t> children(built_.begin() + static_cast<std::ptrdiff_t>(f.first_built), built_.end());
-  if (children.size() == 1) {
-    const NodeId alone = d_.nodes[children[0]].source;
-    if (fold(d_, m_, f.node, f.local, children[0])) return taken_in(alone, children[0]);
-  }
+  if (children.size() == 1 && fold_into_group(f, children[0])) return children[0];
   if (m_.scene.is(f.node, nodes::LOD) && children.size() > 1) {
     make_levels(d_, children, m_.scene.get(f.node, nodes::lod::range), diagonal(f.box) / 2, mean_scale(f.world));
     children = children.first(1);
