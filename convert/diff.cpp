@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "convert/world_meshes.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -45,12 +46,41 @@ double apart(const Box& a, const Box& b) {
   return most;
 }
 
+bool is_number(std::string_view s) { return !s.empty() && s.find_first_not_of("0123456789") == s.npos; }
+
+/// Takes names that VRML does not allow out of one list, and out of the other what they have become (legal_name, with a
+/// number behind it where that was taken). Both are sorted.
+void remove_repaired(std::vector<std::string_view>& names, std::vector<std::string_view>& others) {
+  std::vector<char> is_paired(others.size());
+  std::erase_if(names, [&](std::string_view name) {
+    const auto legal = legal_name(name);
+    if (legal == name) return false;
+    const auto is_made_of_it = [&](std::string_view other) {
+      const auto behind = other.substr(legal.size());
+      return behind.empty() || (behind[0] == '_' && is_number(behind.substr(1)));
+    };
+    for (auto at = std::ranges::lower_bound(others, legal); at != others.end() && at->starts_with(legal); ++at) {
+      char& paired = is_paired[static_cast<std::size_t>(at - others.begin())];
+      if (paired || !is_made_of_it(*at)) continue;
+      paired = true;
+      return true;
+    }
+    return false;
+  });
+  std::vector<std::string_view> left;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (!is_paired[i]) left.push_back(others[i]);
+  others = std::move(left);
+}
+
 }  // namespace
 
 WorldDifference difference(WorldFacts a, WorldFacts b) {
   WorldDifference d{.a = std::move(a), .b = std::move(b)};
   std::ranges::set_difference(d.a.names, d.b.names, std::back_inserter(d.missing));
   std::ranges::set_difference(d.b.names, d.a.names, std::back_inserter(d.added));
+  remove_repaired(d.missing, d.added);
+  remove_repaired(d.added, d.missing);
   d.looks = difference(d.a.looks, d.b.looks);
   const auto &does = d.a.behaviour, &did = d.b.behaviour;
   d.routes = difference(does.routes, did.routes);

@@ -29,7 +29,7 @@ struct WorldFacts {
 
 struct WorldDifference {
   WorldFacts a, b;
-  std::vector<std::string_view> missing, added;  // names
+  std::vector<std::string_view> missing, added;  // names; not those that were only repaired
   double bounds = 0;                             // the largest difference of a number; infinite: one scene has none
   std::optional<Deviation> surface;              // none: too large to be measured
   double of_diagonal = 0;

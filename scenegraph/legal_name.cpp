@@ -21,6 +21,8 @@ bool is_keyword(std::string_view s) {
 
 bool is_one_word(std::string_view name) { return std::ranges::none_of(name, ends_word); }
 
+bool is_read_as_name(std::string_view name) { return is_one_word(name) && !is_keyword(name); }
+
 std::string as_one_word(std::string_view name) {
   std::string out(name);
   std::ranges::replace_if(out, ends_word, '_');

@@ -7,6 +7,8 @@ namespace wrlkit {
 
 /// Whether readers take the name as one word. Names such as `1pump` or `a.b` are not legal, but are read all the same.
 bool is_one_word(std::string_view name);
+/// The same, and it is no keyword either.
+bool is_read_as_name(std::string_view name);
 /// With '_' for blanks, brackets, quotes, commas and '#', which end a word.
 std::string as_one_word(std::string_view name);
 

@@ -5,7 +5,6 @@
 
 #include "base/image/srgb.h"
 #include "scenegraph/gltf_extensions.h"
-#include "scenegraph/legal_name.h"
 
 namespace wrlkit::gltf_reader {
 namespace {
@@ -69,7 +68,7 @@ void Lost::keep(const File& file, Json element) {
 
 void Context::set_name(NodeId n, Json name) const {
   if (name.text().empty()) return;
-  auto legal = legal_name(name.text());
+  const auto legal = names.of(name.text());
   if (legal != name.text()) diag().report(Diag::name_changed, file.where(name), name.text(), legal);
   scene.set_name(n, legal);
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "parsers/gltf/accessors.h"
+#include "parsers/gltf/legal_names.h"
 #include "scenegraph/scene.h"
 
 namespace wrlkit::gltf_reader {
@@ -37,6 +38,7 @@ struct Context {
   Accessors& accessors;
   Scene& scene;
   Lost& lost;
+  LegalNames& names;
 
   Diagnostics& diag() const { return file.diag(); }
   /// A node that stands where a value of the JSON does.

@@ -79,7 +79,7 @@ TypeId Extras::type(std::string_view name, Json at) {
   for (Dialect dialect : {Dialect::vrml97, Dialect::x3d})
     if (TypeId t = find_builtin(name, dialect)) return t;
   if (auto i = unknown_.find(name); i != unknown_.end()) return i->second;
-  if (!is_legal_name(name)) {
+  if (!is_read_as_name(name)) {
     bad(at, "a node type");
     return nodes::Group;
   }
@@ -98,7 +98,7 @@ std::vector<FieldDef> Extras::interface(Json list, std::size_t first_slot) {
     auto parts = row.elements();
     FieldDef f{};
     auto access = parts.size() >= 3 ? find_access(parts[0].text()) : std::nullopt;
-    if (!access || !is_legal_name(parts[2].text()) || !find_field_type(parts[1].text(), f.type) ||
+    if (!access || !is_read_as_name(parts[2].text()) || !find_field_type(parts[1].text(), f.type) ||
         out.size() >= 60'000) {
       bad(row, "a field of an interface");
       continue;
@@ -123,7 +123,7 @@ void Extras::protos(Json list) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const Json p = all[i];
     const bool external = bool(p["EXTERNPROTO"]);
-    if (!is_legal_name(p[external ? "EXTERNPROTO" : "PROTO"].text())) return bad(p, "a prototype");
+    if (!is_read_as_name(p[external ? "EXTERNPROTO" : "PROTO"].text())) return bad(p, "a prototype");
     auto in = p["in"].whole();
     const std::size_t parent = in && *in < i ? *in + 1 : 0;
     scope_ = parent;
@@ -248,7 +248,7 @@ NodeId Extras::reference(Json j, Children& children) {
   if (j.begin() == j.end()) return {};
   const Json inner = *j.begin();
   if (auto name = inner["USE"].text(); !name.empty()) {
-    if (!children.empty() && c_.scene.name(children.front()) == name) return take();
+    if (!children.empty() && c_.scene.name(children.front()) == c_.names.of(name)) return take();
     return named(name);
   }
   NodeId n = c_.add(type(inner.key(), inner), inner);
@@ -286,7 +286,7 @@ void Extras::fields(NodeId n, Json all, Children& children) {
 
 void Extras::field(NodeId n, Json f, Children& children) {
   auto slot = slot_named(c_.scene.type(n), f);
-  if (!slot && !std::ranges::all_of(words_of(f.key()), is_legal_name)) return bad(f, "a field");
+  if (!slot && !std::ranges::all_of(words_of(f.key()), is_read_as_name)) return bad(f, "a field");
   if (!slot) owner_ = {};  // what has no slot cannot be filled in later
   auto v = slot ? value(c_.scene.type(n).fields[*slot].type, *slot, f, children) : unknown(f, children);
   owner_ = n;
@@ -354,7 +354,7 @@ void Extras::define(NodeId n) {
 }
 
 NodeId Extras::named(std::string_view name) const {
-  auto i = names_.find(legal_name(name));  // as set_name has made it
+  auto i = names_.find(c_.names.of(name));  // as set_name has made it
   return i == names_.end() ? NodeId{} : i->second;
 }
 
@@ -369,7 +369,7 @@ void Extras::routes(Json list, Scope& scope) {
     auto [from, out] = split(text.substr(0, to_at));
     auto [to, in] = split(text.substr(to_at + 4));
     NodeId a = named(from), b = named(to);
-    if (!is_legal_name(out) || !is_legal_name(in))
+    if (!is_read_as_name(out) || !is_legal_name(in))
       bad(r, "a ROUTE");
     else if (a && b)
       scope.routes.push_back({a, b, c_.scene.keep(out), c_.scene.keep(in)});
@@ -433,7 +433,7 @@ void Extras::imports(Json list, Scope& scope) {
     const auto [world, exported] = split(text.substr(0, as_at));
     const auto name = text.substr(as_at + 4);
     const NodeId n = named(world);
-    if (!is_legal_name(exported) || !is_legal_name(name)) {
+    if (!is_read_as_name(exported) || !is_legal_name(name)) {
       bad(i, "an IMPORT");
     } else if (!c_.scene.is(n, wrlkit::nodes::Inline)) {
       c_.diag().report(Diag::undefined_import, c_.file.where(i), "IMPORT", world, n ? "not an Inline" : "not defined");
@@ -452,7 +452,7 @@ void Extras::exports(Json list, Scope& scope) {
     const auto as_at = text.find(" AS ");
     const auto name = as_at == text.npos ? std::string_view() : text.substr(as_at + 4);
     const NodeId n = named(text.substr(0, as_at));
-    if (!is_legal_name(name))
+    if (!is_read_as_name(name))
       bad(e, "an EXPORT");
     else if (!n)
       c_.diag().report(Diag::undefined_import, c_.file.where(e), "EXPORT", text.substr(0, as_at), "not defined");

@@ -45,7 +45,8 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   Buffers buffers(file, path, allowed, lookups);
   Accessors accessors(file, buffers);
   Lost lost;
-  Context context{file, buffers, accessors, scene, lost};
+  LegalNames names(file);
+  Context context{file, buffers, accessors, scene, lost, names};
   Extras extras(context);
   PartRows rows(context);
   Meshes meshes(context, extras, rows);

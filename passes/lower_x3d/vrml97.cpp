@@ -36,7 +36,7 @@ class Vrml97Lowering {
     for (NodeId n : all) foreign_node(n);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) interface(ProtoId{i});
     for_each_scope(scene_, [&](Scope& s) { routes(s); });
-    if (scene_.format != Format::vrml97) names(all);
+    if (scene_.format != Format::vrml97 && scene_.format != Format::gltf) names(all);
     report();
     return head() || changed_;
   }
@@ -47,7 +47,8 @@ class Vrml97Lowering {
     return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97) && !scene_.type(n).is_own();
   }
 
-  /// XML has names that VRML97 has not: Cube.001. Those of VRML97 files, which other readers take, stay.
+  /// XML has names that VRML97 has not: Cube.001. Those of VRML97 files, which other readers take, stay; the reader of
+  /// glTF has seen to its own.
   void names(std::span<const NodeId> all) {
     std::set<std::string, std::less<>> taken;
     for (NodeId n : all) taken.emplace(scene_.name(n));
