@@ -4,6 +4,8 @@
 #pragma once
 #include <map>
 #include <optional>
+#include <set>
+#include <string>
 #include <unordered_set>
 
 #include "parsers/x3d/units.h"
@@ -94,8 +96,10 @@ class Parser : private AttributeValues {
     auto v = raw(n, name);
     return v ? plain(*v) : std::string_view{};
   }
-  /// The name of a node. XML can hold some that no other encoding can write: blanks and the like become '_'.
+  /// The name of a node. XML can hold some that no other encoding can write: blanks and the like become '_',
+  /// with a number behind where another node has that name.
   std::string_view name_of(std::string_view attribute);
+  std::string free_name(std::string_view name);
   Span where(const XmlNode& n) const { return span_of(n.name); }
   Span where(const XmlNode& n, std::string_view attribute) const {
     auto v = raw(n, attribute);
@@ -109,6 +113,8 @@ class Parser : private AttributeValues {
   XmlTree tree_;
   Units units_;
   std::vector<const Names*> interfaces_;  // of the prototypes whose bodies are being read
+  std::set<std::string> taken_;           // names of the file; empty until one is needed
+  std::map<std::string, std::string_view, std::less<>> repaired_;
   std::size_t depth_ = 0;
 };
 

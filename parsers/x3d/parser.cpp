@@ -275,9 +275,21 @@ const XmlNode* Parser::find_element(const XmlNode& n, std::string_view name) {
 std::string_view Parser::name_of(std::string_view attribute) {
   const auto name = plain(attribute);
   if (is_one_word(name)) return name;
-  const auto legal = as_one_word(name);
+  const auto [at, is_new] = repaired_.try_emplace(std::string(name));
+  if (is_new) at->second = scene_.keep(free_name(name));
+  const std::string legal(at->second);
   diag_.report(Diag::x3d_repaired, span_of(attribute), "name '" + std::string(name) + "' is read as '" + legal + "'");
-  return scene_.keep(legal);
+  return at->second;
+}
+
+std::string Parser::free_name(std::string_view name) {
+  if (taken_.empty())
+    for (const auto& a : tree_.attributes)
+      if (a.name == "DEF") taken_.emplace(plain(a.value));
+  const auto legal = as_one_word(name);
+  auto out = legal;
+  for (int k = 2; !taken_.insert(out).second; ++k) out = legal + "_" + std::to_string(k);
+  return out;
 }
 
 std::optional<std::string_view> Parser::raw(const XmlNode& n, std::string_view name) const {
