@@ -56,6 +56,11 @@ void write_packed(const Sink& to, bool gzip, auto&& f) {
   packer.pack({}, true, put);
 }
 
+/// The file from whose folder relative urls are to lead; empty: that of the input.
+std::string urls_from(const Writing& w) {
+  return w.sink || w.to.path == "-" || w.options.is_mirrored ? "" : w.to.path;
+}
+
 bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;
   TextOptions options{.precision = w.options.precision, .own_fields = w.options.dump};
@@ -76,7 +81,7 @@ bool write_text(const Writing& w, TextWriter write) {
   if (w.context.monitor) w.context.monitor->begin(path == "-" ? "" : "writing " + path, 0, "");
   if (path != "-" && !w.options.dump && w.to.format->parsed == Format::vrml97) report_inlines(w);
   MadeFiles made(w.scene, *w.context.resources, path, w.options.own_folder, diag);
-  options.file = path == "-" || w.options.is_mirrored ? "" : path;
+  options.file = urls_from(w);
   options.place = [&](std::string_view url) { return made.place(url); };
   OutputUrls urls(w, true);
   options.copy = std::ref(urls);
@@ -136,19 +141,19 @@ bool write_gltf_file(const Writing& w) {
   try {
     NamedFiles named(*ctx.resources, ctx.diag);
     if (!named.write()) return false;
+    OutputUrls urls(w, false);
+    const PlaceMade stays;  // pictures are glTF's own matter
+    const CopyOfUrl copy = std::ref(urls);
+    const std::string from = urls_from(w);
+    options.lead_urls = [&](Span where, std::span<const std::string_view> list, UrlUse use) {
+      return led_urls(w.scene, where, list, use, {from, stays, copy});
+    };
     if (w.sink) {
       const bool done = write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
       drawn.report();
       return done;
     }
-    // Pictures are glTF's own matter.
     MadeFiles beside(w.scene, *ctx.resources, w.to.path, w.options.own_folder, ctx.diag);
-    OutputUrls urls(w, false);
-    options.lead_urls = [&](Span where, std::span<const std::string_view> list, UrlUse use) {
-      std::vector<std::string> led;
-      for (auto url : list) led.push_back(urls(url, where, use).value_or(std::string(url)));
-      return led;
-    };
     const bool done =
         beside.write() && urls.write() &&
         write_gltf(w.scene, counted, options, ctx.resources, w.to.path, ctx.diag, &w.saved.gltf.emplace()) &&
