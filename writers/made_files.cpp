@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/io/same_contents.h"
 #include "base/io/uri.h"
 
 namespace wrlkit {
@@ -51,11 +52,13 @@ bool MadeFiles::write() {
     if (file.always && output_ != "-") name_of(file);
   for (Placed& p : placed_) {
     const auto path = (stem_of(output_).parent_path() / p.name).string();
+    const std::string_view bytes = *p.file->bytes;
+    if (has_contents(path, {&bytes, 1})) resources_.files_written().add(path);  // whoever made it
     p.output = OutputFile::open(
         path, {.inputs = &resources_.files_read(), .written = &resources_.files_written(), .report_replaced = true},
         diag_);
     if (!p.output) return false;
-    p.output->write(*p.file->bytes);
+    p.output->write(bytes);
   }
   return true;
 }

@@ -261,6 +261,9 @@ void small_gltf(CLI::App& verb, Flags& f) {
 
 void in_place(CLI::App& verb, Flags& f) {
   verb.add_flag("--in-place", f.load.in_place, "allow OUT to be IN, which is kept as IN.bak");
+  verb.add_flag("--overwrite", f.overwrite,
+                "replace files that belong to something else: buffers, pictures and copies that the OUT which is there "
+                "does not refer to");
 }
 
 void method(CLI::App& verb, Flags& f) { AddOption{verb}("method", f.method, "method"); }

@@ -23,6 +23,7 @@
 #include "tools/cli/recipe.h"
 #include "tools/cli/session.h"
 #include "tools/gltf_summary.h"
+#include "tools/verbs/files_of_others.h"
 
 namespace wrlkit {
 
@@ -195,17 +196,20 @@ int run_convert(const Flags& flags) {
     fmt::print("{}", recipe_text(flags.given, flags.warnings, s.pipeline()));
     return done;
   }
+  const auto to = *chosen_output(flags, save_options(flags));
+  if (!check_buffer(flags, to)) return usage;
   warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.good()) return nothing;
   const bool is_read = read_input(s);
   if (is_read) warn_of_no_light(s, s.world().scene);
+  if (is_read) keep_files_of_others(s, to);
   const auto saved = is_read ? write_world(s, save_options(flags)) : Saved{};
   if (saved) backup.keep();
   s.progress().clear();
   if (saved && flags.verbose && saved.gltf) fmt::print(stderr, "{}", summary_text(*saved.gltf));
   if (saved && flags.verbose) fmt::print(stderr, "{} -> {}\n", flags.inputs[0], flags.output);
-  if (flags.json) s.print_json(facts_json(s, *chosen_output(flags, save_options(flags)), saved));
+  if (flags.json) s.print_json(facts_json(s, to, saved));
   return s.end(static_cast<bool>(saved));
 }
 

@@ -9,6 +9,7 @@
 #include "tools/cli/print_diagnostics.h"
 #include "tools/gltf_summary.h"
 #include "tools/verbs/convert.h"
+#include "tools/verbs/files_of_others.h"
 
 namespace wrlkit {
 namespace {
@@ -75,6 +76,7 @@ int run_optimize(const Flags& given) {
     return usage;
   }
   if (s.printed_pipeline()) return done;
+  if (!check_buffer(flags, *output_of(flags.output))) return usage;
   warn_of_idle_options(flags);
   Backup backup(flags);
   if (!backup.good()) return nothing;
@@ -83,6 +85,7 @@ int run_optimize(const Flags& given) {
   Optimized made;
   if (read_input(s)) {
     before = s.world().bytes;
+    keep_files_of_others(s, *output_of(flags.output));
     made = optimize(s.document(), s.pipeline(), *output_of(flags.output), options, {s.pipeline_options()});
   }
   if (made) {

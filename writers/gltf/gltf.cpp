@@ -6,6 +6,7 @@
 
 #include "base/io/gzip.h"
 #include "base/io/output.h"
+#include "base/io/same_contents.h"
 #include "base/io/uri.h"
 #include "base/stop.h"
 #include "scenegraph/nodes.h"
@@ -68,6 +69,7 @@ class Files {
   }
   OutputFile& first() { return files_.front(); }
   bool write(const std::filesystem::path& path, const std::vector<std::string_view>& pieces) {
+    if (resources_ && has_contents(path.string(), pieces)) resources_->files_written().add(path.string());
     if (!add(path, is_new_)) return false;
     files_.back().write(pieces);
     return true;
