@@ -146,7 +146,8 @@ bool write_gltf_file(const Writing& w) {
     const CopyOfUrl copy = std::ref(urls);
     const std::string from = urls_from(w);
     options.lead_urls = [&](Span where, std::span<const std::string_view> list, UrlUse use) {
-      return led_urls(w.scene, where, list, use, {from, stays, copy});
+      // The url of a picture that is part of the file only names it.
+      return led_urls(w.scene, where, list, use, {use == UrlUse::texture ? "" : from, stays, copy});
     };
     if (w.sink) {
       const bool done = write_glb(w.scene, counted, options, ctx.resources, *w.sink, ctx.diag) && named.commit();
