@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/stop.h"
 #include "geometry/unwrap/strip.h"
 
 namespace wrlkit::unwrap {
@@ -204,6 +205,7 @@ void Packer::make_unit(std::uint32_t item, double factor, int side) {
     std::vector<Spotted> spots;
     Filler filler(strip);
     for (const Piece& p : pieces) {
+      check_stop();
       draw(p, bitmap_);
       spots.push_back(filler.place(bitmap_));
     }
@@ -256,6 +258,7 @@ int Packer::run(double factor, int width, int height) {
   Strip strip(width, height, options_.padding);
   Filler filler(strip);
   for (const Piece& p : pieces) {
+    check_stop();
     if (!p.whole) draw(p, bitmap_);
     Spotted s = filler.place(p.whole ? units_[p.item] : bitmap_);
     std::uint32_t page = height > 0 ? s.at.y / height : 0;

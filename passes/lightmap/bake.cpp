@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/parallel.h"
+#include "base/stop.h"
 #include "passes/lightmap/borders.h"
 #include "passes/lightmap/checkpoint.h"
 #include "passes/lightmap/cut_off.h"
@@ -83,6 +84,7 @@ std::vector<Point> point_of_each(std::vector<PageBaker>& pages, const std::vecto
   std::vector<Point> all;
   for (std::size_t i = 0; i < pages.size(); ++i)
     for (std::size_t tile = 0; tile < pages[i].n_tiles(); ++tile) {
+      check_stop();
       const auto& points = pages[i].points(tile, 1, 1, inherited[i].missing);
       all.insert(all.end(), points.begin(), points.end());
     }
