@@ -15,11 +15,13 @@ namespace py = pybind11;
 
 constexpr auto between_looks = std::chrono::milliseconds(20);  // for signals: soon for a person, and little work
 
+using Work = std::function<void(const std::stop_token&)>;
+
 /// Work that a thread of Python's waits for.
 class Waited {
  public:
-  explicit Waited(const std::function<void(const std::stop_token&)>& work);
-  py::object wait();
+  py::object run_beside(const Work& work);
+  py::object run_here(const Work& work);
   void call(const std::function<void()>& f);
   bool is_fault_of_pass(const py::error_already_set& exception);
 
@@ -30,9 +32,11 @@ class Waited {
     std::exception_ptr fault{};
   };
 
+  void wait();
   Call* next_call();
   void answer(Call&);
   void look_for_signals();
+  py::object end();
 
   std::stop_source stop_;
   std::mutex mutex_;
@@ -43,24 +47,47 @@ class Waited {
   // The thread that waits alone knows these, with Python held.
   std::optional<py::error_already_set> interrupt_;  // what ends the work
   py::object cause_ = py::none();                   // what a pass has ended with
-  std::jthread thread_;                             // last: it uses all others
 };
 
 thread_local Waited* work_of_thread = nullptr;  // that is done on it
-thread_local Waited* answering = nullptr;       // a call of that work
+thread_local Waited* answering = nullptr;       // whose calls are answered on it
 
-Waited::Waited(const std::function<void(const std::stop_token&)>& work)
-    : thread_([this, &work] {
-        work_of_thread = this;
-        try {
-          work(stop_.get_token());
-        } catch (...) {
-          fault_ = std::current_exception();
-        }
-        const std::scoped_lock lock(mutex_);
-        done_ = true;
-        changed_.notify_all();
-      }) {}
+/// Where handlers of signals run.
+bool is_main_thread() {
+  const auto main = py::module_::import("threading").attr("main_thread")();
+  return main.attr("ident").cast<unsigned long>() == PyThread_get_thread_ident();
+}
+
+py::object Waited::run_beside(const Work& work) {
+  std::jthread thread([this, &work] {
+    work_of_thread = this;
+    try {
+      work(stop_.get_token());
+    } catch (...) {
+      fault_ = std::current_exception();
+    }
+    const std::scoped_lock lock(mutex_);
+    done_ = true;
+    changed_.notify_all();
+  });
+  wait();
+  thread.join();
+  return end();
+}
+
+/// Python takes a thread that asks for it while Python ends away for good, which the middle of C++ does not survive: a
+/// thread that is not the main one does not ask before it has to.
+py::object Waited::run_here(const Work& work) {
+  auto* const before = std::exchange(answering, this);
+  try {
+    const py::gil_scoped_release others;
+    work(stop_.get_token());
+  } catch (...) {
+    fault_ = std::current_exception();
+  }
+  answering = before;
+  return end();
+}
 
 /// What is to be called, null when there is nothing now.
 Waited::Call* Waited::next_call() {
@@ -100,7 +127,7 @@ bool Waited::is_fault_of_pass(const py::error_already_set& exception) {
   return false;
 }
 
-py::object Waited::wait() {
+void Waited::wait() {
   const auto is_done = [this] {
     const std::scoped_lock lock(mutex_);
     return done_;
@@ -111,7 +138,9 @@ py::object Waited::wait() {
     else
       look_for_signals();
   }
-  thread_.join();
+}
+
+py::object Waited::end() {
   if (interrupt_) throw *std::exchange(interrupt_, std::nullopt);
   if (fault_) std::rethrow_exception(std::exchange(fault_, nullptr));
   return std::move(cause_);
@@ -128,7 +157,10 @@ void Waited::call(const std::function<void()>& f) {
 
 }  // namespace
 
-py::object run_beside(const std::function<void(const std::stop_token&)>& work) { return Waited(work).wait(); }
+py::object run_beside(const Work& work) {
+  Waited waited;
+  return is_main_thread() ? waited.run_beside(work) : waited.run_here(work);
+}
 
 void call_python(const std::function<void()>& f) {
   if (work_of_thread) return work_of_thread->call(f);

@@ -1,6 +1,7 @@
 // Long work while Python waits. Ctrl-C, and every other signal that Python has a handler for, must be heard meanwhile,
 // and only the thread that Python calls its main one can run handlers. So the work has a thread of its own, while the
-// one that asked for it waits, looks for signals, and stops the work when a handler raises an exception.
+// one that asked for it waits, looks for signals, and stops the work when a handler raises an exception. Where it is
+// not the main one, it does the work itself.
 //
 // Passes in Python run on the thread that waits, not on that of the work: it is the one that the caller's own code runs
 // on, with its thread-local state, its database connections, and its KeyboardInterrupt.
