@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/text/utf8.h"
+#include "scenegraph/legal_name.h"
 
 namespace wrlkit {
 namespace {
@@ -15,17 +19,34 @@ constexpr std::string_view repaired_encoding = "Latin-1";
 bool is_not_finite(double d) { return !std::isfinite(d); }
 bool is_null(NodeId n) { return !n; }
 
+/// Of an SFImage: as many integers as it has at most; nothing when it is none.
+std::optional<std::uint64_t> image_size(const Value& v) {
+  const auto given = v.integer_span();
+  if (given.size() < 3 || given[0] < 0 || given[1] < 0) return std::nullopt;
+  return 3 + static_cast<std::uint64_t>(given[0]) * static_cast<std::uint64_t>(given[1]);
+}
+
 class Repair {
  public:
   Repair(Scene& scene, Diagnostics& diag) : scene_(scene), diag_(diag) {}
 
   void run() {
     for (NodeId n{0}; n.value < scene_.node_count(); ++n.value) node(n);
-    std::erase_if(scene_.main.roots, is_null);
+    scope(scene_.main);
+    for (std::uint32_t p = 0; p < scene_.proto_count(); ++p) scope(scene_.proto(ProtoId{p}).body);
     comment();
   }
 
  private:
+  void scope(Scope& s) {
+    std::erase_if(s.routes, [&](const Route& r) {
+      const bool good = is_one_word(r.event_out) && is_one_word(r.event_in);
+      const auto& [n, event] = is_one_word(r.event_out) ? std::pair(r.to, r.event_in) : std::pair(r.from, r.event_out);
+      if (!good) diag_.report(Diag::unknown_event, scene_.where(n), scene_.type(n).name, event);
+      return !good;
+    });
+  }
+
   void node(NodeId n) {
     if (const auto name = scene_.name(n); !is_utf8(name)) {
       diag_.report(Diag::encoding_repaired, scene_.where(n), repaired_encoding);
@@ -65,6 +86,8 @@ class Repair {
         return finite(v);
       case Element::node:
         return without_null(v);
+      case Element::image:
+        return image(v);
       default:
         return in_utf8(v);
     }
@@ -82,6 +105,12 @@ class Repair {
     std::vector<NodeId> nodes(given.begin(), given.end());
     std::erase_if(nodes, is_null);
     return scene_.make(v.type, v.slot, nodes);
+  }
+
+  Value image(const Value& v) {
+    constexpr std::int32_t none[] = {0, 0, 0};
+    const auto size = image_size(v);
+    return scene_.make(v.type, v.slot, size ? v.integer_span().first(*size) : std::span<const std::int32_t>(none));
   }
 
   Value in_utf8(const Value& v) {
@@ -120,9 +149,12 @@ bool can_be_written(const Value& v) {
       return std::ranges::none_of(v.node_span(), is_null);
     case Element::text:
       return info(v.type).multiple ? std::ranges::all_of(v.text_span(), is_utf8) : is_utf8(v.text());
-    default:
+    case Element::image:
+      return v.type != FieldType::SFImage || (image_size(v) && v.integer_span().size() <= *image_size(v));
+    case Element::integer:
       return true;
   }
+  return true;
 }
 
 void report_repair(const Scene& scene, NodeId n, const Value& v, Diagnostics& diag) {
@@ -132,6 +164,10 @@ void report_repair(const Scene& scene, NodeId n, const Value& v, Diagnostics& di
     diag.report(Diag::not_finite, where, scene.type(n).name, std::ranges::count_if(v.number_span(), is_not_finite));
   else if (element == Element::node)
     diag.report(Diag::null_repaired, where);
+  else if (const auto size = element == Element::image ? image_size(v) : std::nullopt)
+    diag.report(Diag::missing_values, where, v.count - 3, "image", *size - 3);
+  else if (element == Element::image)
+    diag.report(Diag::bad_value, where, std::string(scene.type(n).name) + ".image", info(v.type).name);
   else
     diag.report(Diag::encoding_repaired, where, repaired_encoding);
 }

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
 #include <stdexcept>
 
 #include "base/image/image.h"
@@ -13,6 +15,7 @@
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 #include "tests/unit/temp_folder.h"
+#include "writers/vrml/vrml.h"
 
 using namespace wrlkit;
 
@@ -364,4 +367,171 @@ TEST_CASE("made scene: pictures that passes of another document have made come a
   CHECK(bytes_of(one, ".wrl").find(made_scheme) == std::string::npos);
   const auto again = bytes_of(one, ".wrl");
   CHECK(again.find("data:image/png") != again.rfind("data:image/png"));
+}
+
+namespace {
+
+/// A made scene that is saved in each format, and what was said of it; what was written must be read back without a
+/// word.
+struct SavedEach {
+  std::set<std::string> said;
+  std::map<std::string, std::string> bytes;
+
+  explicit SavedEach(const Scene& scene, const SaveOptions& options = {}) {
+    for (const std::string ending : {".wrl", ".x3d", ".glb"}) {
+      CAPTURE(ending);
+      const Document document(World{.scene = scene});
+      bytes[ending] = bytes_of(document, ending, options);
+      for (const auto& m : document.messages()) said.insert(m.name);
+      if (bytes[ending].empty()) continue;
+      const auto back = load_bytes(bytes[ending], "back");
+      REQUIRE(back);
+      for (const auto& m : back.messages())
+        if (ending != ".glb" || m.name != "name-changed") CHECK(m.str() == "");  // glTF keeps all names
+    }
+  }
+  bool is_saved() const { return !bytes.at(".wrl").empty() && !bytes.at(".x3d").empty() && !bytes.at(".glb").empty(); }
+  bool says(const std::string& name) const { return said.contains(name); }
+};
+
+/// Names of what check_values says.
+std::set<std::string> checked(const Scene& scene) {
+  const Document document(World{.scene = scene});
+  check_values(document.scene(), document.diag());
+  std::set<std::string> names;
+  for (const auto& m : document.messages()) names.insert(m.name);
+  return names;
+}
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN(),
+                 infinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_CASE("made scene: what is sound is saved without a word", "[made]") {
+  const Made made;
+  const SavedEach saved(made.scene);
+  CHECK(saved.is_saved());
+  CHECK(saved.said.empty());
+}
+
+TEST_CASE("made scene: a node below itself is not saved", "[made]") {
+  Made made;
+  const NodeId below = made.scene.add(nodes::Group);
+  made.scene.set(below, nodes::group::children, made.group);
+  made.scene.set(made.group, nodes::transform::children, below);
+  for (const auto* pipeline : {"", "weld,lod", "expand,merge"}) {
+    const SavedEach saved(made.scene, {.pipeline = pipeline});
+    CHECK_FALSE(saved.is_saved());
+    CHECK(saved.said == std::set<std::string>{"verify"});
+  }
+}
+
+TEST_CASE("made scene: nodes of another scene, and values of another type, are not saved", "[made]") {
+  Made made;
+  SECTION("a node that is not there") { made.scene.set(made.group, nodes::transform::children, NodeId{1000}); }
+  SECTION("a root that is not there") { made.scene.main.roots.push_back(NodeId{1000}); }
+  SECTION("a root that is NULL") { made.scene.main.roots.push_back(NodeId{}); }
+  SECTION("a type") { made.scene.set(made.box, made.scene.make(FieldType::SFString, nodes::box::size.slot, "large")); }
+  const SavedEach saved(made.scene);
+  CHECK_FALSE(saved.is_saved());
+  CHECK(saved.said == std::set<std::string>{"verify"});
+}
+
+TEST_CASE("made scene: NULL among children is dropped", "[made]") {
+  Made made;
+  made.scene.set(made.group, nodes::transform::children, std::vector{NodeId{}, made.shape, NodeId{}});
+  CHECK(checked(made.scene) == std::set<std::string>{"null-repaired"});
+  const SavedEach saved(made.scene);
+  CHECK(saved.is_saved());
+  CHECK(saved.said == std::set<std::string>{"null-repaired"});
+}
+
+TEST_CASE("made scene: numbers that are not finite become 0", "[made]") {
+  Made made;
+  made.scene.set(made.group, nodes::transform::translation, Vec3{no_number, 1, infinite}, nodes::transform::scale,
+                 Vec3{1, 1, -infinite});
+  const NodeId faces = made.scene.add(nodes::IndexedFaceSet), coord = made.scene.add(nodes::Coordinate);
+  made.scene.set(coord, nodes::coordinate::point, std::vector<double>{0, 0, 0, 1, 0, 0, 1, 1, 0, no_number, 0, 0});
+  made.scene.set(faces, nodes::indexed_face_set::coord, coord, nodes::indexed_face_set::coordIndex,
+                 std::vector<std::int32_t>{0, 1, 2, -1, 0, 2, 3});
+  made.scene.set(made.shape, nodes::shape::geometry, faces);
+  CHECK(checked(made.scene).contains("not-finite"));
+  const SavedEach saved(made.scene);
+  CHECK(saved.is_saved());
+  CHECK(saved.says("not-finite"));
+  for (const auto& [ending, bytes] : saved.bytes) {
+    CHECK(bytes.find("nan") == bytes.npos);
+    CHECK(bytes.find("inf") == bytes.npos);
+  }
+}
+
+TEST_CASE("made scene: what passes make is finite when it is written", "[made]") {
+  Scene scene;
+  const NodeId shape = scene.add(nodes::Transform);
+  scene.set(shape, nodes::transform::translation, Vec3{infinite, 0, no_number});
+  scene.main.roots = {shape};
+  Diagnostics diag;
+  std::string text;
+  write_vrml(
+      scene, {}, [&](std::string_view s) { text += s; }, diag);
+  CHECK(text.find("translation 0 0 0") != text.npos);
+  CHECK(diag.count(Diag::not_finite) == 1);
+}
+
+TEST_CASE("made scene: texts that are not UTF-8, with control characters, in names", "[made]") {
+  Made made;
+  const NodeId text = made.scene.add(nodes::Text), info = made.scene.add(nodes::WorldInfo);
+  made.scene.set(made.shape, nodes::shape::geometry, text);
+  made.scene.set(text, nodes::text::string, std::vector<std::string_view>{"caf\xe9", "a\n\"b\\"});
+  made.scene.set(info, nodes::world_info::title, "\xff\xfe</WorldInfo>");
+  made.scene.set_name(made.shape, "caf\xe9");
+  made.scene.set_name(made.group, "two words");
+  made.scene.set_name(info, "DEF");
+  made.scene.main.roots.push_back(info);
+  made.scene.comment = "made by hand\n";
+  CHECK(checked(made.scene).contains("encoding-repaired"));
+  const SavedEach saved(made.scene);
+  CHECK(saved.is_saved());
+  CHECK(saved.says("encoding-repaired"));
+  CHECK(saved.says("name-changed"));
+}
+
+TEST_CASE("made scene: images, indices and ROUTEs that go too far", "[made]") {
+  Made made;
+  const NodeId appearance = made.scene.add(nodes::Appearance), texture = made.scene.add(nodes::PixelTexture);
+  made.scene.set(made.shape, nodes::shape::appearance, appearance);
+  made.scene.set(appearance, nodes::appearance::texture, texture);
+  SECTION("too many pixels") {
+    made.scene.set(texture, nodes::pixel_texture::image, std::vector<std::int32_t>{1, 1, 3, 255, 255});
+    CHECK(SavedEach(made.scene).says("missing-values"));
+  }
+  SECTION("no image") {
+    made.scene.set(texture, nodes::pixel_texture::image, std::vector<std::int32_t>{-1, 2000000000, 3});
+    CHECK(SavedEach(made.scene).says("bad-value"));
+  }
+  SECTION("events") {
+    made.scene.main.routes.push_back({made.group, made.group, "translation_changed", "set translation"});
+    CHECK(SavedEach(made.scene).says("unknown-event"));
+  }
+  SECTION("indices") {
+    const NodeId faces = made.scene.add(nodes::IndexedFaceSet), coord = made.scene.add(nodes::Coordinate);
+    made.scene.set(coord, nodes::coordinate::point, std::vector{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 1.0, 0.0});
+    made.scene.set(faces, nodes::indexed_face_set::coord, coord, nodes::indexed_face_set::coordIndex,
+                   std::vector<std::int32_t>{0, 1, 2, 2000000000, -7, -1, 0, 1, 2});
+    made.scene.set(made.shape, nodes::shape::geometry, faces);
+    CHECK(SavedEach(made.scene, {.pipeline = "weld,join,lod"}).says("bad-index"));
+  }
+}
+
+TEST_CASE("made scene: nodes in places that cannot hold them", "[made]") {
+  Made made;
+  made.scene.set(made.group, nodes::transform::children, std::vector{made.shape, made.box});
+  made.scene.set(made.shape, nodes::shape::geometry, made.scene.add(nodes::Material));
+  CHECK(checked(made.scene) == std::set<std::string>{"wrong-child"});
+  for (const std::string ending : {".wrl", ".x3d", ".glb"})
+    for (const auto* pipeline : {"", "weld,join,lod", "expand,merge,flatten"}) {
+      const auto document = made.document();
+      CHECK_NOTHROW(bytes_of(document, ending, {.pipeline = pipeline}));
+    }
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace wrlkit {
 
 TextDocument::TextDocument(const Scene& scene, const Style& style, bool own_fields, int precision, const Sink& sink,
                            Diagnostics& diag)
     : scene_(scene),
+      diag_(diag),
       urls_(scene),
       out_(sink),
       names_(scene, style.dialect, own_fields, diag),
@@ -32,10 +34,20 @@ std::size_t TextDocument::own_fields(const NodeType& t) const {
   return builtin_nodes()[find_builtin(t.name, style_.dialect).value].fields.size();
 }
 
+void TextDocument::number(double d) {
+  const bool is_finite = std::isfinite(d);  // passes may reckon too far
+  n_not_finite_ += !is_finite;
+  out_.number(is_finite ? d : 0, precision_);
+}
+
+void TextDocument::end() {
+  if (n_not_finite_ > 0) diag_.report(Diag::not_finite, {}, "the scene", n_not_finite_);
+}
+
 void TextDocument::numbers(const Value& v) {
   const auto& t = info(v.type);
   if (t.element == Element::number)
-    list(v.number_span(), t.arity, [&](double d) { out_.number(d, precision_); });
+    list(v.number_span(), t.arity, [&](double d) { number(d); });
   else if (t.element == Element::image)
     list(v.integer_span(), style_.wraps_images ? 1 : v.integer_span().size(),
          [&](std::int32_t i) { pixel(static_cast<std::uint32_t>(i)); });

@@ -63,7 +63,11 @@ class TextDocument {
     out_ << '"';
   }
 
+  /// Reports what could not be written as it is.
+  void end();
+
   const Scene& scene_;
+  Diagnostics& diag_;
   UrlFields urls_;
   TextOut out_;
   Names names_;
@@ -73,9 +77,11 @@ class TextDocument {
   template <class T, class Print>
   void list(std::span<const T> values, std::size_t arity, Print print);
   void pixel(std::uint32_t);
+  void number(double);
 
   Style style_;
   int precision_;
+  std::size_t n_not_finite_ = 0;
   std::vector<std::uint32_t> printed_;                          // the scope that printed the node last, from 1
   std::vector<std::pair<std::uint32_t, std::uint32_t>> again_;  // nodes printed again in a body, and where before
   std::uint32_t scope_ = 1, scopes_ = 1;

@@ -30,6 +30,7 @@ class VrmlWriter : TextDocument {
          << scene_.comment;
     names_.scope(scene_.main);
     scope(scene_.main);
+    end();
   }
 
  private:

@@ -28,7 +28,6 @@ class X3dWriter : TextDocument {
       : TextDocument(scene, {.dialect = Dialect::x3d, .yes = "true", .no = "false", .wraps_images = true},
                      options.own_fields, options.precision, sink, diag),
         options_(options),
-        diag_(diag),
         version_(x3d_version(scene)) {}
 
   void file() {
@@ -46,6 +45,7 @@ class X3dWriter : TextDocument {
     indented([&] { element("Scene", [&] { scope(scene_.main); }); });
     line() << "</X3D>\n";
     if (const auto n = characters_.n_replaced()) diag_.report(Diag::x3d_character, replaced_at_, n);
+    end();
   }
 
  private:
@@ -415,7 +415,6 @@ class X3dWriter : TextDocument {
   }
 
   const TextOptions& options_;
-  Diagnostics& diag_;
   int version_;
   XmlCharacters characters_;
   Span at_;           // of the node that is printed

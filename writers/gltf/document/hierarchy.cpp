@@ -244,7 +244,8 @@ std::uint32_t Builder::other(NodeId n) {
 std::uint32_t Builder::background(NodeId n, std::span<const NodeId> sky) {
   frames_.push_back({.node = n});
   std::vector<std::uint32_t> children;
-  for (NodeId s : sky) children.push_back(shape(s));
+  for (NodeId s : sky)
+    if (m_.scene.is(s, nodes::Shape)) children.push_back(shape(s));
   frames_.pop_back();
   d_.sky = Sky{d_.add({.source = n, .plain = false}, children), frames_.back().world};
   return d_.sky->node;
