@@ -8,6 +8,7 @@
 #include "passes/analysis/nesting.h"
 #include "passes/analysis/own_nodes.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -188,6 +189,11 @@ class Inliner {
         fields.push_back(*v);
         fields.back().slot = to;
       }
+    for (const Value& v : scene_.fields(n)) {
+      if (!is_tag(scene_, n, v)) continue;
+      fields.push_back(v);
+      if (!scene_.is_extra(v)) fields.back().slot = nodes::group::metadata.slot;
+    }
     scene_.become(n, nodes::Group, fields);
     scope.routes.insert(scope.routes.end(), use.routes.begin(), use.routes.end());
     scope.imports.insert(scope.imports.end(), use.imports.begin(), use.imports.end());

@@ -162,7 +162,7 @@ bool Extras::adds_to_vertices(NodeId n, const Value& v) const {
   const auto field = scene_.type(n).fields[v.slot].name;
   if (field == "metadata" && features_of(scene_, n)) return false;  // feature ids give it
   if (v.node_span().empty()) return false;
-  return (field != "coord" && field != "color") || !name(v.node).empty() || is_tagged_child(v);
+  return (field != "coord" && field != "color") || !name(v.node).empty() || is_child_with_more(v);
 }
 
 bool Extras::geometry_says_more(NodeId n) const {
@@ -190,10 +190,26 @@ bool Extras::is_named_child(const Value& v) const {
          !said_names_.contains(std::string(name(v.node)));
 }
 
-/// Of a single node in a field that has tags of its own.
-bool Extras::is_tagged_child(const Value& v) const {
+/// Of Coordinates and the like: what is not in the vertices.
+bool Extras::adds_to_data(NodeId n, const Value& v) const {
+  if (is_tag(scene_, n, v)) return true;
+  if (!speaks(n, v, {})) return false;
+  const auto field = scene_.type(n).fields[v.slot].name;
+  return field != "point" && field != "color" && field != "vector" && info(v.type).element != Element::node;
+}
+
+bool Extras::is_said_of(const Value& v) const {
   return !scene_.is_extra(v) && !v.is && v.type == FieldType::SFNode && v.node &&
-         !scene_.is(v.node, nodes::X3DMetadataObject) && has_tags(scene_, v.node);
+         !scene_.is(v.node, nodes::X3DMetadataObject);
+}
+
+/// Of a single node in a field that has tags of its own.
+bool Extras::is_tagged_child(const Value& v) const { return is_said_of(v) && has_tags(scene_, v.node); }
+
+/// Of one that says more than vertices do.
+bool Extras::is_child_with_more(const Value& v) const {
+  return is_said_of(v) &&
+         std::ranges::any_of(scene_.fields(v.node), [&](const Value& own) { return adds_to_data(v.node, own); });
 }
 
 bool Extras::has_facts_of_geometry(NodeId n, std::span<const std::string_view> without) const {
@@ -230,7 +246,7 @@ void Extras::facts_below(JsonOut& json, NodeId n, std::size_t depth) {
   tag_fields(json, n);
   if (depth == 0) return;
   for (const Value& v : scene_.fields(n)) {
-    if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !v.node || is_tag(scene_, n, v)) continue;
+    if (!is_said_of(v)) continue;
     const bool named = is_named_child(v);
     if (!named && !has_facts_below(v.node, depth - 1)) continue;
     json.object(scene_.type(n).fields[v.slot].name_in(Dialect::vrml97), [&] {
@@ -275,7 +291,8 @@ void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.object([&] {
     json.object(scene_.type(v.node).name, [&] {
       if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
-      tag_fields(json, v.node);
+      for (const Value& own : scene_.fields(v.node))
+        if (adds_to_data(v.node, own)) geometry_field(json, v.node, own);
     });
   });
 }

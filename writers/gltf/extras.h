@@ -113,6 +113,9 @@ class Extras {
   bool adds_to_vertices(NodeId geometry, const Value&) const;
   static constexpr std::size_t depth_of_names = 3;  // of a Material in an Appearance in a Shape
   bool is_named_child(const Value&) const;
+  bool adds_to_data(NodeId, const Value&) const;
+  bool is_said_of(const Value&) const;
+  bool is_child_with_more(const Value&) const;
   bool is_tagged_child(const Value&) const;
   bool has_facts_below(NodeId, std::size_t depth) const;
   void facts_below(JsonOut&, NodeId, std::size_t depth);

@@ -375,9 +375,13 @@ std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
 }
 
 /// Slots of an Appearance that the material, its textures and its alphaMode say.
-constexpr std::uint16_t said_by_appearance[] = {
-    nodes::appearance::material.slot,  nodes::appearance::texture.slot,     nodes::appearance::textureTransform.slot,
-    nodes::appearance::alphaMode.slot, nodes::appearance::alphaCutoff.slot, nodes::appearance::backMaterial.slot};
+std::vector<std::uint16_t> Materials::said_by_appearance(const Look& l) {
+  namespace a = nodes::appearance;
+  std::vector<std::uint16_t> said{a::material.slot, a::texture.slot, a::alphaMode.slot, a::alphaCutoff.slot,
+                                  a::backMaterial.slot};
+  if (l.transform_node) said.push_back(a::textureTransform.slot);
+  return said;
+}
 
 /// The fields of a material that the look does not show, a picture that is not shown at all, and the light.
 void Materials::extras(JsonOut& json, const Look& l) {
@@ -390,7 +394,8 @@ void Materials::extras(JsonOut& json, const Look& l) {
   const auto alpha_mode = l.appearance ? scene_.get(l.appearance, nodes::appearance::alphaMode) : std::string_view();
   const bool says_alpha = extras_ && !alpha_mode.empty() && alpha_mode != "AUTO";
   const bool named = extras_ && l.appearance && !extras_->name(l.appearance).empty();
-  const bool says_more = extras_ && l.appearance && extras_->anything(l.appearance, said_by_appearance);
+  const auto said_of_look = said_by_appearance(l);
+  const bool says_more = extras_ && l.appearance && extras_->anything(l.appearance, said_of_look);
   bool picture = extras_ && l.texture_node && l.texture.texture == none;
   bool transform = extras_ && l.transform_node && l.texture.texture == none;
   // For a Material alone: a picture that is multiplied, not one that takes the place of the colour.
@@ -409,7 +414,7 @@ void Materials::extras(JsonOut& json, const Look& l) {
           json.object("Appearance", [&] {
             if (named) json.member("DEF", extras_->name(l.appearance));
             if (says_alpha) json.member("alphaMode", alpha_mode);
-            if (says_more) extras_->other_fields(json, l.appearance, said_by_appearance);
+            if (says_more) extras_->other_fields(json, l.appearance, said_of_look);
           });
         if (multiplied) json.member("multiplied", true);
         if (material) extras_->node(json, l.material, said);

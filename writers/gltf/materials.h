@@ -107,6 +107,7 @@ class Materials {
   void extensions(JsonOut&, const Look&);
   void light_extras(JsonOut&, const Look&);
   std::vector<std::uint16_t> said_by_x3d(const Look&) const;
+  static std::vector<std::uint16_t> said_by_appearance(const Look&);
   std::vector<std::uint16_t> said_by_vrml97(const Look&) const;
   void extras(JsonOut&, const Look&);
 
