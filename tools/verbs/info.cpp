@@ -9,6 +9,7 @@
 
 #include "base/io/url.h"
 #include "base/text/json.h"
+#include "parsers/gltf/stored.h"
 #include "parsers/patches/patches.h"
 #include "tools/cli/inputs.h"
 #include "tools/cli/print_diagnostics.h"
@@ -110,7 +111,8 @@ std::string info_text(const std::string& file, const Info& i) {
   const auto format = i.is_inventor ? std::string_view("Open Inventor") : to_string(i.format);
   std::string out = fmt::format("{}: {}{}, {} bytes\n", file, format, i.gzip ? " (gzip)" : "", i.bytes);
   const auto& g = i.geometry;
-  const auto unique = g.unique == g.triangles ? "" : fmt::format(" ({} unique)", g.unique);
+  const auto unique =
+      g.unique == g.triangles ? "" : fmt::format(" ({} {})", g.unique, i.format == Format::gltf ? "stored" : "unique");
   out += fmt::format("  shapes {}, polygons {}, triangles {}{}, lines {}, points {}\n", g.shapes, g.polygons,
                      g.triangles, unique, g.lines, g.points);
   if (!b.empty()) out += bounds_text(b);
@@ -164,9 +166,10 @@ int info_of_one(const Flags& flags, std::vector<std::string>& objects) {
   }
   if (!file || !s.document().read(flags.inputs[0], *file)) return unreadable();
   if (s.diag().has_errors() && s.world().scene.node_count() == 0) return unreadable();
-  const auto made = info(std::move(s.document()), {flags.recognise});
+  auto made = info(std::move(s.document()), {flags.recognise});
   s.progress().clear();
   if (!made) return unreadable();
+  if (made->format == Format::gltf) made->geometry.unique = stored_triangles(file->view());
   objects.push_back(info_json(flags.inputs[0], *made, s.diag()));
   if (!flags.json) fmt::print("{}", info_text(flags.inputs[0], *made));
   return s.end(true);
