@@ -6,9 +6,11 @@
 #include "geometry/geometry.h"
 #include "geometry/moved.h"
 #include "passes/analysis/figures.h"
+#include "passes/analysis/tag_watch.h"
 #include "passes/analysis/usage.h"
 #include "passes/lightmap/own_shapes.h"
 #include "passes/normals/normals.h"
+#include "scenegraph/features.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -84,16 +86,36 @@ class Flattening {
                                                                      : nodes::IndexedFaceSet,
                                  scene_.where(g));
     store_mesh(scene_, to, moved_);
+    keep_metadata(g, to);
     scene_.set_name(to, scene_.name(g));
     scene_.set(shape, nodes::shape::geometry, to);
     ++ctx_.stats["flatten.shapes"];
   }
 
+  /// What is known about the geometry; which of its faces are which parts is so only of faces that stay.
+  void keep_metadata(NodeId from, NodeId to) {
+    const auto slot = scene_.type(from).find("metadata", Dialect::x3d),
+               own = scene_.type(to).find("metadata", Dialect::x3d);
+    const Value* v = slot && own ? scene_.find(from, *slot) : nullptr;
+    if (!v || v->is || !v->node) return;
+    if (const auto f = features_of(scene_, from); f && f->n_faces() != moved_.n_faces()) return;
+    scene_.set(to, scene_.make(FieldType::SFNode, *own, v->node));
+  }
+
+  /// What a Group has, too, stays: children, metadata, what no table knows. The bounding box was in another frame.
   void become_group(NodeId n) {
-    const auto list = scene_.get(n, nodes::transform::children);
-    const std::vector<NodeId> children(list.begin(), list.end());
+    const NodeType& group = builtin_nodes()[nodes::Group.value];
     std::vector<Value> fields;
-    if (!children.empty()) fields.push_back(scene_.make(FieldType::MFNode, nodes::group::children.slot, children));
+    for (Value v : scene_.copy_of_fields(n)) {
+      if (!scene_.is_extra(v)) {
+        const auto name = scene_.type(n).fields[v.slot].name;
+        const auto slot = name == "bboxCenter" || name == "bboxSize" ? std::nullopt : group.find(name, Dialect::x3d);
+        if (!slot) continue;
+        v.slot = *slot;
+      }
+      fields.push_back(v);
+    }
+    std::ranges::stable_sort(fields, {}, &Value::slot);
     scene_.become(n, nodes::Group, fields);
     ++n_transforms_;
     ++ctx_.stats["flatten.transforms"];
@@ -114,8 +136,10 @@ class Flattening {
 
 Outcome flatten(Scene& scene, const FlattenOptions& options, PassContext& ctx) {
   const auto before = figures_of(scene);
+  const TagWatch tags(scene);
   const bool copied = bake::own_shapes(scene, ctx.diag) > 0;
   if (!Flattening(scene, options.faces, ctx).run()) return copied ? Outcome::changed : Outcome::unchanged;
+  tags.report_lost(scene, "flatten", ctx.diag);
   count_figures(ctx, "flatten", before, figures_of(scene));
   return Outcome::changed;
 }
