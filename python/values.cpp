@@ -141,13 +141,15 @@ Value new_part(const PyNode& node, const Value& value) {
                                    : scene.make(value.type, value.slot, added.empty() ? NodeId{} : added[0]);
 }
 
-/// What a file would be warned of is an error of the program that sets it.
+/// What a file would be warned of is an error of the program that sets it, but for texts of other encodings: those of
+/// files have them, too.
 void require_valid(const PyNode& node, const FieldDef& field, const Value& value) {
   if (!std::ranges::all_of(value.number_span(), [](double v) { return std::isfinite(v); }))
     throw value_error(full_name(node, field.name) + ": not a finite number");
   Diagnostics faults;
   check_value(node.scene(), node.id, value, faults);
-  if (!faults.messages().empty()) throw value_error(faults.messages()[0].text());
+  for (const auto& fault : faults.messages())
+    if (fault.id != Diag::encoding_repaired) throw value_error(fault.text());
 }
 
 Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value) {

@@ -27,13 +27,13 @@ def options(wrlkit, folder):
     out = {}
     for verb in reversed(verbs):
         for name, rest in re.findall(r'^ +(?:-\w,)?(--[a-z-]+)(.*)$', run([wrlkit, verb, '--help'], folder).stdout, re.MULTILINE):
-            out[name] = verb, re.match(r' [A-Z]', rest) is not None and not rest.startswith(' Excludes')
+            out[name] = verb, re.match(r' [A-Za-z]', rest) is not None and not rest.startswith(' Excludes')
     return out
 
 
 def commands(wrlkit, text, known):
     """What a reader of `text` may type; None, and the option, where no verb has it."""
-    for name, word in re.findall(r'(?<![\w-])(--[a-z-]+)(?: ([\w-]+))?', text):
+    for name, word in re.findall(r'(?<![\w-])(--[a-z-]+)(?: ([\w-]+(?:,[\w-]+)*))?', text):
         verb, takes_word = known.get(name, (None, False))
         words = [name, '.' if word == 'DIR' else word] if takes_word else [name]
         yield verb and [wrlkit, verb, 'in.wrl', *verbs[verb], *words], ' '.join(words)

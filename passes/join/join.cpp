@@ -10,6 +10,7 @@
 
 #include "geometry/geometry.h"
 #include "passes/analysis/usage.h"
+#include "passes/join/touching.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -114,7 +115,12 @@ NodeId if_filled(const Scene& scene, NodeId n, FieldKey<T> values) {
 class Joining {
  public:
   Joining(Scene& scene, const JoinOptions& options, PassContext& ctx)
-      : scene_(scene), named_(options.named), ctx_(ctx), usage_(scene), contents_(scene, usage_, options.named) {}
+      : scene_(scene),
+        named_(options.named),
+        touching_(options.touching),
+        ctx_(ctx),
+        usage_(scene),
+        contents_(scene, usage_, options.named) {}
 
   Outcome run() {
     for (NodeId n : all_nodes(scene_)) join_children(n);
@@ -131,6 +137,7 @@ class Joining {
   bool plain(NodeId n) const;
   bool own(NodeId n) const { return n && usage_.once(n) && (named_ || scene_.name(n).empty()); }
   std::string key(NodeId shape);
+  void join_touching(std::span<const NodeId> shapes);
   void join_shapes(std::span<const NodeId> shapes);
   bool append(NodeId geometry, bool own_points);
   void start();
@@ -152,7 +159,7 @@ class Joining {
   }
 
   Scene& scene_;
-  bool named_;
+  bool named_, touching_;
   PassContext& ctx_;
   Usage usage_;
   Contents contents_;
@@ -186,8 +193,13 @@ bool Joining::join_list(std::vector<NodeId>& children) {
   }
   const std::size_t before = n_joined_;
   gone_.resize(scene_.node_count());
-  for (const auto& g : groups)
-    if (g.size() > 1) join_shapes(g);
+  for (const auto& g : groups) {
+    if (g.size() < 2) continue;
+    if (touching_)
+      join_touching(g);
+    else
+      join_shapes(g);
+  }
   if (n_joined_ == before) return false;
   std::erase_if(children, [&](NodeId n) { return n && n.value < gone_.size() && gone_[n.value]; });
   return true;
@@ -237,6 +249,20 @@ std::string Joining::key(NodeId shape) {
   for (bool flag : {scene_.get(g, ifs::ccw), scene_.get(g, ifs::solid), scene_.get(g, ifs::convex)}) key.add(flag);
   key.add(scene_.get(g, ifs::creaseAngle));
   return key.text();
+}
+
+void Joining::join_touching(std::span<const NodeId> shapes) {
+  Touching touching;
+  for (const NodeId shape : shapes) {
+    MeshJob job{scene_, geometry_of(shape), mesh_, scratch_, silent_};
+    read_mesh(job);
+    touching.add(mesh_.positions.span(), mesh_.corners);
+  }
+  for (const auto& group : touching.groups()) {
+    std::vector<NodeId> joined;
+    for (const auto i : group) joined.push_back(shapes[i]);
+    if (joined.size() > 1) join_shapes(joined);
+  }
 }
 
 void Joining::join_shapes(std::span<const NodeId> shapes) {

@@ -25,6 +25,9 @@ Shapes in the same group, or at the top of the file, are joined if
   contents;
 - no texture is mapped by the default coordinates, which depend on the extent of the geometry.
 
+With `touching` only those that have points in common become one, so parts that look alike stay apart: what levels of
+detail need, which weigh parts against each other.
+
 The joined Shape takes the place of the first one. A Coordinate that has a name or several uses stays: the Shapes that
 share it are joined with each other, and no point is copied. Other points, colours, normals and texture coordinates are
 concatenated; values that are not used are left out, and names of the concatenated nodes are lost. Equal values are left
@@ -43,10 +46,12 @@ Cost: linear in the nodes and in the joined indices.)";
       {"join.meshes-after", "geometry nodes drawn after the pass"},
   };
 
-  bool named = false;
+  bool named = false, touching = false;
 
   void fields(auto&& f) {
     f("named", named, "also join Shapes with a DEF name, if no ROUTE or Script uses it; the name is lost");
+    f("touching", touching,
+      "only join Shapes that have points in common, by way of others or directly: faces of one part");
   }
 };
 

@@ -1,5 +1,7 @@
 #include "writers/gltf/gltf.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <filesystem>
@@ -173,7 +175,8 @@ class Writer {
   void report_origin() {
     if (!document_.origin || !options_.says_origin || options_.origin.kind != GltfOrigin::Kind::automatic) return;
     const Vec3 moved = Vec3{} - *document_.origin;
-    diag_.report(Diag::moved_to_origin, {}, moved[0], moved[1], moved[2]);
+    const auto text = [](double v) { return fmt::format("{}", v); };  // all digits
+    diag_.report(Diag::moved_to_origin, {}, text(moved[0]), text(moved[1]), text(moved[2]));
   }
 
   /// What is left to do with the nodes once it is known how vertices are stored.
