@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "base/stop.h"
 #include "writers/gltf/draco.h"
 #include "writers/gltf/flat_faces.h"
 #include "writers/gltf/tolerance.h"
@@ -91,6 +92,7 @@ void Packing::keep_floats(const Geometry& g) {
 }
 
 Streams Packing::packed(const Streams& s) {
+  check_stop();
   return {positions(s.positions),
           normals(s.normals),
           colors(s.colors),
@@ -111,6 +113,7 @@ Streams Packing::draco(const Streams& s) {
   constexpr std::size_t json_of_view = 160;  // what a view and the extension take, about
   auto [known, is_new] = by_draco_.try_emplace(s);
   if (!is_new) return known->second;
+  check_stop();
   const double grid = step(s.positions), scale = std::max(scale_[s.positions], 0.0);
   if (!fits_grid(floats(s.positions), grid)) {
     ++summary_.kept;
