@@ -39,17 +39,7 @@ class PythonPass final : public PassInstance {
   Outcome run(Scene& scene, PassContext& ctx) const override {
     bool good = false;
     call_python([&] {
-      auto world = std::make_shared<PyWorld>(scene, ctx);
-      const auto let_go = [&] {
-        if (world.use_count() > 1) world->detach();
-      };
-      try {
-        good = call(world, ctx);
-      } catch (...) {
-        let_go();
-        throw;
-      }
-      let_go();
+      PyWorld::for_pass(scene, ctx, [&](const std::shared_ptr<PyWorld>& world) { good = call(world, ctx); });
     });
     return good ? Outcome::changed : Outcome::failed;
   }

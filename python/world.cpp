@@ -108,6 +108,18 @@ GivenOptions options_of_keywords(const py::kwargs& keywords) {
 
 namespace {
 
+thread_local PyWorld* run_by_thread = nullptr;  // on whose scene passes are run
+
+class RunByThread {
+ public:
+  explicit RunByThread(PyWorld* world) : before_(std::exchange(run_by_thread, world)) {}
+  RunByThread(const RunByThread&) = delete;
+  ~RunByThread() { run_by_thread = before_; }
+
+ private:
+  PyWorld* before_;
+};
+
 LoadOptions load_options(const Reading& reading) {
   ConvertOptions options;
   if (!reading.unit.empty()) set_options(options, {{"unit", {reading.unit}}});
@@ -146,10 +158,10 @@ class PyWorld::Said {
   explicit Said(PyWorld& world) : world_(world), own_(world.scene().sources), begin_(diag().messages().size()) {}
   Said(const Said&) = delete;
   ~Said() {
-    if (!world_.lent_) world_.remember(messages());
+    if (!world_.context_) world_.remember(messages());
   }
 
-  Diagnostics& diag() { return world_.lent_ ? world_.context_->diag : own_; }
+  Diagnostics& diag() { return world_.context_ ? world_.context_->diag : own_; }
   std::vector<MessageView> messages() {
     auto all = views(diag());
     all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(begin_));
@@ -174,6 +186,41 @@ class PyWorld::InUse {
   std::thread::id before_;
 };
 
+/// What a pass says of a world belongs to the run that the pass is in.
+class PyWorld::InPass {
+ public:
+  InPass(PyWorld& world, PassContext& ctx) : world_(world), before_(std::exchange(world.context_, &ctx)) {}
+  InPass(const InPass&) = delete;
+  ~InPass() { world_.context_ = before_; }
+
+ private:
+  PyWorld& world_;
+  PassContext* before_;
+};
+
+std::vector<MessageView> PyWorld::messages() const {
+  auto all = messages_;
+  if (context_) std::ranges::move(views(context_->diag), std::back_inserter(all));
+  return all;
+}
+
+void PyWorld::for_pass(Scene& scene, PassContext& ctx, const std::function<void(const std::shared_ptr<PyWorld>&)>& f) {
+  auto* const run = run_by_thread;
+  const bool is_own = run && &run->scene() == &scene;
+  const auto world = is_own ? run->shared_from_this() : std::make_shared<PyWorld>(scene);
+  const InPass pass(*world, ctx);
+  const auto let_go = [&] {
+    if (!is_own && world.use_count() > 1) world->detach();
+  };
+  try {
+    f(world);
+  } catch (...) {
+    let_go();
+    throw;
+  }
+  let_go();
+}
+
 void PyWorld::check_thread() const {
   if (user_ != std::thread::id() && user_ != std::this_thread::get_id())
     throw std::runtime_error("the world is being worked on by another thread; a world is for one thread at a time");
@@ -190,6 +237,7 @@ PyWorld::Counts PyWorld::run(Pipeline& pipeline) {
   Scene& all = scene();
   Said said(*this);
   const InUse use(*this);
+  const RunByThread run(this);
   const auto cause = run_beside([&](const std::stop_token& stop) {
     PassContext ctx(said.diag(), stats, resources(), nullptr, stop);
     good = pipeline.run(all, ctx) && (!ctx.resources || write_named_files(*ctx.resources, ctx.diag));

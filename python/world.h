@@ -8,6 +8,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -47,8 +48,8 @@ struct Reading {
 class PyWorld : public std::enable_shared_from_this<PyWorld> {
  public:
   explicit PyWorld(Document document);
-  /// The world of a pass that is being run.
-  PyWorld(Scene& scene, PassContext& ctx) : lent_(&scene), context_(&ctx) {}
+  /// The scene of whoever runs a pass.
+  explicit PyWorld(Scene& scene) : lent_(&scene) {}
   PyWorld(const PyWorld&) = delete;
 
   static std::shared_ptr<PyWorld> load(const std::string& path, const Reading&);
@@ -60,7 +61,7 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
   }
   /// Of the file; empty when it is the world of a pass.
   std::string path() const { return document_ ? document_->path() : std::string(); }
-  std::vector<MessageView> messages() const { return lent_ ? views(context_->diag) : messages_; }
+  std::vector<MessageView> messages() const;
 
   using Counts = std::map<std::string, std::uint64_t>;
   Counts run(const std::string& pipeline);
@@ -70,12 +71,15 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
   py::object info(bool recognise);
   void report(const std::string& severity, const std::string& text, const py::object& node);
   Mesh mesh(NodeId geometry);
-  /// The scene goes its own way: what Python still has of it is a copy from now on.
-  void detach();
+
+  /// For a pass: `f` is given the World whose scene it is, where Python runs the pass on one, so that nodes are those
+  /// that Python has. Otherwise one of its own, for the time of the pass: what is still held of it then is a copy.
+  static void for_pass(Scene&, PassContext&, const std::function<void(const std::shared_ptr<PyWorld>&)>& f);
 
  private:
   class Said;
   class InUse;
+  class InPass;
 
   void check_thread() const;
   Resources* resources() const { return lent_ ? context_->resources : document_->resources(); }
@@ -84,10 +88,11 @@ class PyWorld : public std::enable_shared_from_this<PyWorld> {
   /// With the same scene, whose arrays are shared.
   Document copy(const PassContext&);
   void remember(const std::vector<MessageView>&);
+  void detach();
 
   std::optional<Document> document_;
-  Scene* lent_ = nullptr;  // by a pass that is being run, with its context
-  PassContext* context_ = nullptr;
+  Scene* lent_ = nullptr;              // by a pass that is being run
+  PassContext* context_ = nullptr;     // of a pass in Python that is being run on the scene
   std::vector<MessageView> messages_;  // each once
   std::set<std::string> said_;
   std::thread::id user_{};  // while it is worked on

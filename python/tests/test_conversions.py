@@ -103,6 +103,14 @@ world.save('plant.glb', compress='meshopt')
 counted: int = world.run('weld')['weld.points']
 text: str = world.messages[0].text
 facts = wrlkit.info('plant.wrl')
+data: bytes = world.to_bytes('glb', compress='meshopt')
+again: wrlkit.World = wrlkit.load_bytes(data)
+shape: int = world.nodes('PixelTexture')[0].image.shape[2]
+lines = [message.line for message in wrlkit.convert('plant.wrl', 'plant.glb')]
+try:
+    world.run('weld')
+except wrlkit.Error as error:
+    place: str = error.message.file if error.message else error.messages[0].file
 
 @wrlkit.pass_
 def paint(world: wrlkit.World, table: pathlib.Path = pathlib.Path('a.csv')) -> None:

@@ -123,6 +123,33 @@ def test_what_a_pass_keeps_of_a_world_stays(tmp_path):
     assert '7 8 9' in (tmp_path / 'kept.wrl').read_text() and '7 8 9' not in (tmp_path / 'out.wrl').read_text()
 
 
+def test_a_pass_is_given_the_world_that_runs_it(tmp_path):
+    """Nodes that it has found are those of the caller, who may go on with them."""
+    world = world_of(tmp_path, 'DEF A Group { } DEF B Material { }')
+    found = []
+
+    @wrlkit.pass_
+    def finds(given):
+        assert given is world and given.find('A') == world.find('A')
+        found.extend(given.nodes('Material'))
+        given.report('warning', 'found')
+        assert given.messages[-1].text == 'found'
+        given.run('weld')
+
+    @wrlkit.pass_
+    def runs_another(given):
+        given.run('finds')
+    world.run('runs-another')
+    found[0].transparency = 0.5
+    assert world.find('B').transparency == 0.5 and [m.text for m in world.messages] == ['found']
+
+    @wrlkit.pass_
+    def is_lent(given):
+        assert given is not world
+    world.save(tmp_path / 'again.wrl')
+    wrlkit.convert(tmp_path / 'again.wrl', tmp_path / 'out.wrl', pipeline='is-lent')
+
+
 def test_a_pass_sees_the_memory_of_the_scene(tmp_path):
     """By address: what the pass sees is what the world has, before and behind it."""
     world = world_of(tmp_path, 'Shape { geometry IndexedFaceSet { coord DEF C Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } coordIndex [ 0 1 2 -1 ] } }')
