@@ -96,7 +96,10 @@ Document::Document(LoadOptions options, Watch watch)
 Document::Document(World world, const PassContext& context)
     : state_(std::make_unique<State>(std::move(world), context)) {}
 Document::Document(World world, LoadOptions options, Watch watch) : Document(std::move(options), std::move(watch)) {
-  state_->own_diag = Diagnostics(world.scene.sources);
+  auto sources = std::make_shared<Sources>();  // which copies of the scene, in other threads, do not share
+  sources->add_all(world.scene.sources);
+  world.scene.sources = sources;
+  state_->own_diag = Diagnostics(std::move(sources));
   state_->apply_severities();
   state_->open_files(no_file);
   state_->take(std::make_unique<World>(std::move(world)));

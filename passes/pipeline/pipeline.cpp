@@ -133,6 +133,8 @@ bool Pipeline::run(Scene& scene, PassContext& ctx, const PipelineOptions& option
 }
 
 bool Pipeline::run_until_stopped(std::size_t end, Scene& scene, PassContext& ctx, const PipelineOptions& options) {
+  // Passes go down without asking where they are: what a program has made may have no end.
+  if (!verify(scene, Level::authored, ctx.diag)) return false;
   const StopScope scope(ctx.stop);
   try {
     return run_steps(0, end, scene, ctx, options);

@@ -144,8 +144,8 @@ class Pipeline {
   /// The whole text, every option spelled out; parse(text()) is this pipeline again.
   std::string text() const;
 
-  /// Runs every pass, after meet_needs. False when one failed, or was stopped (PassContext::stop): the scene is valid
-  /// then, but as far as it has come.
+  /// Runs every pass, after meet_needs. False, reported, when `verify` does not take the scene, or a pass failed, or
+  /// was stopped (PassContext::stop, not reported): the scene is valid then, but as far as it has come.
   bool run(Scene&, PassContext&, const PipelineOptions& = {});
   /// Runs every pass but the last group of mesh passes, which the returned source runs for each mesh that it is asked
   /// for. The scene, the context and this pipeline must outlive it. Null when a pass failed. `makers`, if given, makes

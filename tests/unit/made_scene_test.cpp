@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "base/image/image.h"
 #include "base/io/url.h"
@@ -325,6 +326,27 @@ TEST_CASE("made scene: copies of a scene do not add to its memory, and may be wo
   CHECK(name == "kept");
 }
 
+TEST_CASE("made scene: documents of copies are worked on in several threads", "[made]") {
+  const Parts parts;
+  const auto path = parts.folder.write("world.wrl", refers);
+  const Document original = load(path);
+  REQUIRE(original);
+  const LoadOptions options{.allow_paths = {parts.folder.path()}};
+  std::vector<std::string> bytes(4);
+  std::vector<std::thread> threads;
+  for (auto& out : bytes)
+    threads.emplace_back([&, copy = original.scene()]() mutable {
+      for (int i = 0; i < 10; ++i) {
+        const Document document(World{.scene = copy}, options);
+        out = bytes_of(document, ".wrl", {.pipeline = "expand,weld,merge", .embed = true});
+        out += std::to_string(document.messages().size());
+      }
+    });
+  for (auto& thread : threads) thread.join();
+  CHECK(bytes[0].find("FromPart") != std::string::npos);
+  for (const auto& other : bytes) CHECK(other == bytes[0]);
+}
+
 TEST_CASE("made scene: what another document brings along is found", "[made]") {
   const TempFolder folder;
   folder.write("tree/leaf.png", pixel());
@@ -420,10 +442,14 @@ TEST_CASE("made scene: a node below itself is not saved", "[made]") {
   const NodeId below = made.scene.add(nodes::Group);
   made.scene.set(below, nodes::group::children, made.group);
   made.scene.set(made.group, nodes::transform::children, below);
-  for (const auto* pipeline : {"", "weld,lod", "expand,merge"}) {
-    const SavedEach saved(made.scene, {.pipeline = pipeline});
+  for (const auto* text : {"", "weld,lod", "expand,merge"}) {
+    const SavedEach saved(made.scene, {.pipeline = text});
     CHECK_FALSE(saved.is_saved());
     CHECK(saved.said == std::set<std::string>{"verify"});
+    auto document = made.document();
+    std::string why;
+    CHECK_FALSE(Pipeline::parse(text, why)->run(document.scene(), document.context()));
+    CHECK(document.diag().count(Diag::verify) > 0);
   }
 }
 
