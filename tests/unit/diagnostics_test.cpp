@@ -1,7 +1,10 @@
 // Messages: what is counted, and what is kept.
 #include <catch2/catch.hpp>
 
+#include <string>
+
 #include "base/diagnostics.h"
+#include "base/text/utf8.h"
 
 using namespace wrlkit;
 
@@ -16,4 +19,16 @@ TEST_CASE("diagnostics: the same message of the same place counts once, beyond t
   diag.report(Diag::undefined_use, Span{}, "A");
   CHECK(diag.count(Diag::undefined_use) == 8);
   CHECK(diag.messages().size() == Diagnostics::kept_per_name);
+}
+
+TEST_CASE("diagnostics: long arguments are cut between characters", "[diagnostics]") {
+  for (std::size_t before = 0; before < 4; ++before) {
+    std::string name(before, 'a');
+    for (int i = 0; i < 100; ++i) name += "ü";
+    Diagnostics diag;
+    diag.report(Diag::undefined_use, {}, name);
+    const auto& said = diag.messages()[0].args[0];
+    CHECK(is_utf8(said));
+    CHECK(said.ends_with("ü..."));
+  }
 }
