@@ -54,22 +54,17 @@ std::set<std::string> files_of_scene(const std::string& path, Resources& resourc
   return out;
 }
 
-/// Files next to the output that have its name, and those in folders that have: all that it could be in the way of.
-std::vector<fs::path> with_its_name(const std::string& output) {
-  std::vector<fs::path> out;
+/// What the output refers to nowhere: the picture of a sky, and sums of light that people look at in other programs.
+std::vector<std::string> left_beside(const std::string& output) {
+  const auto stem = stem_of(output);
+  const auto named = [&](const std::string& made) { return stem.filename().string() + '.' + made; };
+  std::vector<std::string> out{named("sky.png")};
   std::error_code fault;
-  const auto folder = fs::path(output).parent_path();
-  const auto stem = stem_of(output).filename().string(), own = fs::path(output).filename().string();
-  for (const auto& entry : fs::directory_iterator(folder.empty() ? "." : folder, fault)) {
-    const auto name = entry.path().filename().string();
-    if (name != own && name.starts_with(stem)) out.push_back(folder / name);
+  for (int page = 0;; ++page) {
+    const auto name = named("lightmap_" + std::to_string(page) + ".exr");
+    if (!fs::exists(stem.parent_path() / name, fault)) return out;
+    out.push_back(name);
   }
-  return out;
-}
-
-/// What the output refers to nowhere: the picture of a sky, and sums of light that a lightmap goes on from.
-bool is_left_beside(const fs::path& file) {
-  return file.extension() == ".exr" || file.filename().string().ends_with(".sky.png");
 }
 
 bool is_gltf(const Output& to) { return to.format->endings == ".gltf"; }
@@ -88,27 +83,23 @@ bool check_buffer(const Flags& flags, const Output& to) {
 
 void keep_files_of_others(Session& s, const Output& to) {
   if (s.flags().overwrite || to.path == "-") return;
-  const auto neighbours = with_its_name(to.path);
-  if (neighbours.empty()) return;
   auto& written = s.resources().files_written();
   std::error_code fault;
-  const bool is_replaced = fs::exists(to.path, fault);
-  const auto folder = fs::path(to.path).parent_path(),
-             whole = fs::weakly_canonical(fs::absolute(to.path, fault)).parent_path();
+  const auto folder = fs::path(to.path).parent_path();
+  const auto whole = fs::weakly_canonical(fs::absolute(to.path, fault)).parent_path();
   const auto add = [&](const fs::path& file) {
     written.add((folder / file).string());
     written.add((whole / file).string());
   };
-  if (is_replaced) {
-    auto own = files_of_scene(to.path, s.resources());
-    if (is_gltf(to)) own.merge(files_of_gltf(to.path));
-    std::ranges::for_each(own, add);
-    for (const auto& file : neighbours)
-      if (is_left_beside(file)) add(file.filename());
-  }
   add(fs::path(to.path).filename());
   for (const auto& named : s.pipeline().written_files()) written.add(named.file.path);
   written.refusal = refusal(to.path);
+  if (!fs::is_regular_file(to.path, fault)) return;
+  // A large .glb has all in it unless there are copies of files.
+  const bool has_copies = fs::exists(stem_of(to.path).concat("_files"), fault);
+  if (to.format->is_text || has_copies) std::ranges::for_each(files_of_scene(to.path, s.resources()), add);
+  if (is_gltf(to)) std::ranges::for_each(files_of_gltf(to.path), add);
+  std::ranges::for_each(left_beside(to.path), add);
 }
 
 }  // namespace wrlkit
