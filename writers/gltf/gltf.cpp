@@ -175,8 +175,8 @@ class Writer {
   void report_origin() {
     if (!document_.origin || !options_.says_origin || options_.origin.kind != GltfOrigin::Kind::automatic) return;
     const Vec3 moved = Vec3{} - *document_.origin;
-    const auto text = [](double v) { return fmt::format("{}", v); };  // all digits
-    diag_.report(Diag::moved_to_origin, {}, text(moved[0]), text(moved[1]), text(moved[2]));
+    const auto digits = [](double v) { return fmt::format("{:.15g}", v); };  // all of them: --origin takes them
+    diag_.report(Diag::moved_to_origin, {}, digits(moved[0]), digits(moved[1]), digits(moved[2]));
   }
 
   /// What is left to do with the nodes once it is known how vertices are stored.

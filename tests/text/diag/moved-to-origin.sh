@@ -2,7 +2,7 @@ mkdir -p %t.d
 cd %t.d
 cat > far.wrl <<'EOF'
 #VRML V2.0 utf8
-DEF Pump Transform { translation 500000.5 20 -3000000 children Shape { geometry Box { } } }
+DEF Pump Transform { translation 500000.5 20 -3000001 children Shape { geometry Box { } } }
 DEF Tank Transform { translation 500040 20 -3000000 children [
   DEF Wall Shape { geometry Cylinder { } }
   Transform { translation 5 0 0 children USE Wall }
