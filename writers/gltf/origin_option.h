@@ -13,7 +13,7 @@ namespace wrlkit {
 /// automatic: a place in the middle of a scene that is far away (origin.h), else the origin that it has. given: `at`,
 /// in metres, y up, for files that belong together.
 struct GltfOrigin {
-  static constexpr std::string_view type = "auto|none|X,Y,Z";
+  static constexpr std::string_view type = "X,Y,Z|auto|none";
   enum class Kind : std::uint8_t { automatic, none, given };
 
   Kind kind = Kind::automatic;
