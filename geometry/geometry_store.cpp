@@ -6,6 +6,7 @@
 
 #include "base/math/digits.h"
 #include "geometry/geometry.h"
+#include "scenegraph/metadata.h"
 #include "scenegraph/nodes.h"
 
 namespace wrlkit {
@@ -105,6 +106,7 @@ class Store {
     }
     NodeId n = scene_.add(nodes::Coordinate, scene_.where(geometry_));
     scene_.set(n, nodes::coordinate::point, points);
+    take_tags(scene_, authored("coord", nodes::Coordinate), n);
     return n;
   }
 
@@ -120,6 +122,7 @@ class Store {
       for (std::size_t k = 0; k < width; ++k) values.push_back(decimal(a.values[i * a.width + k]));
     NodeId n = scene_.add(key.node, scene_.where(geometry_));
     scene_.set(n, key, values);
+    take_tags(scene_, old, n);
     return n;
   }
 
@@ -177,10 +180,12 @@ class Store {
     fields_.push_back(v);
   }
 
-  // Fields that the node type did not have must not be dropped.
+  // What is said of the geometry stays, and fields that the node type did not have.
   void become(TypeId type) {
+    const auto tags = tags_for(scene_, geometry_, type);
+    fields_.insert(fields_.end(), tags.begin(), tags.end());
     for (const Value& v : scene_.fields(geometry_))
-      if (scene_.is_extra(v)) fields_.push_back(v);
+      if (scene_.is_extra(v) && scene_.content(v).is) fields_.push_back(v);
     scene_.become(geometry_, type, fields_);
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 
 namespace wrlkit {
 namespace {
@@ -76,6 +77,25 @@ void add_metadata(Scene& scene, NodeId n, NodeId set) {
   }
   const Value value = scene.make(FieldType::SFNode, slot.value_or(Value::extra_slot), set);
   scene.set(n, slot ? value : scene.make_extra("metadata", value));
+}
+
+std::vector<Value> tags_for(const Scene& scene, NodeId n, TypeId type) {
+  std::vector<Value> out;
+  const auto slot = scene.type(type).find("metadata", Dialect::x3d);
+  for (Value v : scene.fields(n)) {
+    if (!is_tag(scene, n, v)) continue;
+    if (!scene.is_extra(v)) {
+      if (!slot) continue;
+      v.slot = *slot;
+    }
+    out.push_back(v);
+  }
+  return out;
+}
+
+void take_tags(Scene& scene, NodeId from, NodeId to) {
+  if (!from || !to || from == to || !has_tags(scene, from) || has_tags(scene, to)) return;
+  for (const Value& v : tags_for(scene, from, scene.type_id(to))) scene.set(to, v);
 }
 
 }  // namespace wrlkit

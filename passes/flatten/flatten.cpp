@@ -11,7 +11,9 @@
 #include "passes/lightmap/own_shapes.h"
 #include "passes/normals/normals.h"
 #include "scenegraph/features.h"
+#include "scenegraph/metadata.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -86,20 +88,28 @@ class Flattening {
                                                                      : nodes::IndexedFaceSet,
                                  scene_.where(g));
     store_mesh(scene_, to, moved_);
-    keep_metadata(g, to);
+    keep_parts(g, to);
     scene_.set_name(to, scene_.name(g));
+    take_tags_of_geometry(g, to);
     scene_.set(shape, nodes::shape::geometry, to);
     ++ctx_.stats["flatten.shapes"];
   }
 
-  /// What is known about the geometry; which of its faces are which parts is so only of faces that stay.
-  void keep_metadata(NodeId from, NodeId to) {
-    const auto slot = scene_.type(from).find("metadata", Dialect::x3d),
-               own = scene_.type(to).find("metadata", Dialect::x3d);
-    const Value* v = slot && own ? scene_.find(from, *slot) : nullptr;
-    if (!v || v->is || !v->node) return;
-    if (const auto f = features_of(scene_, from); f && f->n_faces() != moved_.n_faces()) return;
-    scene_.set(to, scene_.make(FieldType::SFNode, *own, v->node));
+  /// Which of its faces are which parts: where all of them stay.
+  void keep_parts(NodeId from, NodeId to) {
+    const auto parts = features_of(scene_, from);
+    if (parts && parts->n_faces() == moved_.n_faces()) set_features(scene_, to, *parts);
+  }
+
+  /// And of Coordinates and the like.
+  void take_tags_of_geometry(NodeId from, NodeId to) {
+    take_tags(scene_, from, to);
+    for (const Value& v : scene_.copy_of_fields(from)) {
+      if (scene_.is_extra(v) || v.is || v.type != FieldType::SFNode || !has_tags(scene_, v.node)) continue;
+      const auto slot = scene_.type(to).find(scene_.type(from).fields[v.slot].name, Dialect::x3d);
+      const Value* same = slot ? scene_.find(to, *slot) : nullptr;
+      if (same && same->type == FieldType::SFNode) take_tags(scene_, v.node, same->node);
+    }
   }
 
   /// What a Group has, too, stays: children, metadata, what no table knows. The bounding box was in another frame.

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "geometry/geometry.h"
+#include "passes/analysis/tag_watch.h"
 #include "passes/analysis/usage.h"
 #include "passes/join/touching.h"
 #include "scenegraph/equal.h"
@@ -334,6 +335,11 @@ void Joining::append_used(std::span<const T> values, int width, const std::vecto
 
 }  // namespace
 
-Outcome join(Scene& scene, const JoinOptions& options, PassContext& ctx) { return Joining(scene, options, ctx).run(); }
+Outcome join(Scene& scene, const JoinOptions& options, PassContext& ctx) {
+  const TagWatch tags(scene);
+  const Outcome out = Joining(scene, options, ctx).run();
+  if (out == Outcome::changed) tags.report_lost(scene, "join", ctx.diag);
+  return out;
+}
 
 }  // namespace wrlkit
