@@ -194,6 +194,7 @@ void Lowering::visit_instance(NodeId n, const State& s) {
 
 void Lowering::run_among_vrml97() {
   stateful_ = stateful_nodes(scene_);
+  report_unknown_fields();
   for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) lower_body(scene_.proto(ProtoId{i}));
   State state;
   Frame frame;
