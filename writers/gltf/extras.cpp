@@ -110,6 +110,9 @@ Extras::Said Extras::said_by_node(NodeId n, bool plain_transform) const {
   };
   if (scene_.is(n, Transform)) return Said(transform_slots, plain_transform ? 4 : 1);
   if (scene_.is(n, Shape) && !shown(n)) return {};
+  static constexpr std::uint16_t shape_alone[] = {shape::geometry.slot};
+  const NodeId look = scene_.is(n, Shape) ? scene_.get(n, shape::appearance) : NodeId{};
+  if (look && !scene_.is(look, Appearance)) return shape_alone;  // of a prototype that was not found
   static constexpr std::uint16_t choices[] = {switch_::children.slot};
   if (marks_[n.value] & keeps_hidden_mark) return choices;
   for (const Row& r : rows)

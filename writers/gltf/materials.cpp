@@ -377,8 +377,8 @@ std::vector<std::uint16_t> Materials::said_by_x3d(const Look& l) const {
 /// Slots of an Appearance that the material, its textures and its alphaMode say.
 std::vector<std::uint16_t> Materials::said_by_appearance(const Look& l) {
   namespace a = nodes::appearance;
-  std::vector<std::uint16_t> said{a::material.slot, a::texture.slot, a::alphaMode.slot, a::alphaCutoff.slot,
-                                  a::backMaterial.slot};
+  std::vector<std::uint16_t> said{a::texture.slot, a::alphaMode.slot, a::alphaCutoff.slot, a::backMaterial.slot};
+  if (l.material) said.push_back(a::material.slot);
   if (l.transform_node) said.push_back(a::textureTransform.slot);
   return said;
 }
