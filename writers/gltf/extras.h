@@ -9,6 +9,10 @@
 // "verbatim". Long fields of a node that is there several times are written only with the first. All prototypes are in
 // one list; "in" is the index of the one that a prototype is declared in.
 //
+// Tags (scenegraph/tags.h) stand there in every file: of an Appearance with its material, of geometry and Coordinates
+// with the mesh, of what has become a row of the table of parts as {row: 7, Transform: {...}} in "parts" of the scene.
+// null in a field stands for the next of the node's children in glTF.
+//
 // {} marks a node of glTF that VRML needs not, {"USE": n} one that is the node which stands at n of the file's nodes
 // once more. A type without fields, {"Group": {}}, is there where a reader would take another one: a node of glTF that
 // shows a mesh and is not moved reads as a Shape, moved as a Transform with a Shape; without a mesh as a Transform, or
