@@ -2,8 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace wrlkit {
+
+namespace {
+
+std::uint32_t color_at(const Attribute& a, std::size_t corner) {
+  const float* value = a.at(a.index[corner]);
+  std::uint32_t out = 0;
+  for (int k = 0; k < 4; ++k) {
+    const float part = k < a.width ? std::clamp(value[k], 0.f, 1.f) : 1.f;
+    out = out << 8 | static_cast<std::uint32_t>(std::round(255 * part));
+  }
+  return out;
+}
+
+/// A colour of a face, and a corner that has it.
+struct FaceColor {
+  std::uint32_t color;
+  std::size_t corner;
+};
+
+/// That most corners of a face have.
+FaceColor usual_color(const Attribute& a, std::size_t face) {
+  const auto first = color_at(a, 3 * face), second = color_at(a, 3 * face + 1), third = color_at(a, 3 * face + 2);
+  return second == third && first != second ? FaceColor{second, 3 * face + 1} : FaceColor{first, 3 * face};
+}
+
+/// Whether all colours that blend within faces are those of whole faces, and these are most.
+bool is_crisp(const Mesh& mesh) {
+  std::set<std::uint32_t> whole;
+  std::size_t n_whole = 0;
+  for (std::size_t f = 0; f < mesh.n_faces() && whole.size() <= FlatColors::most_regions; ++f)
+    if (const auto color = flat_color(mesh, f)) {
+      whole.insert(*color);
+      ++n_whole;
+    }
+  if (whole.size() > FlatColors::most_regions || 2 * n_whole < mesh.n_faces()) return false;
+  for (std::size_t c = 0; c < mesh.corners.size(); ++c)
+    if (!whole.contains(color_at(mesh.color, c))) return false;
+  return true;
+}
+
+}  // namespace
 
 std::optional<std::uint32_t> flat_color(const Mesh& mesh, std::size_t face) {
   const Attribute& a = mesh.color;
@@ -11,31 +53,28 @@ std::optional<std::uint32_t> flat_color(const Mesh& mesh, std::size_t face) {
   const float* first = a.at(a.index[3 * face]);
   for (std::size_t k = 1; k < 3; ++k)
     if (!std::equal(first, first + a.width, a.at(a.index[3 * face + k]))) return std::nullopt;
-  std::uint32_t out = 0;
-  for (int k = 0; k < 4; ++k) {
-    const float part = k < a.width ? std::clamp(first[k], 0.f, 1.f) : 1.f;
-    out = out << 8 | static_cast<std::uint32_t>(std::round(255 * part));
-  }
-  return out;
+  return color_at(a, 3 * face);
 }
 
 std::optional<FlatColors> FlatColors::of(const Mesh& mesh) {
   if (!mesh.is_triangles() || !mesh.color.present()) return std::nullopt;
-  std::vector<std::uint32_t> colors;
-  colors.reserve(mesh.n_faces());
-  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
-    const auto color = flat_color(mesh, f);
-    if (!color) return std::nullopt;
-    colors.push_back(*color);
-  }
   FlatColors out;
   out.width_ = mesh.color.width;
+  std::vector<FaceColor> colors;
+  colors.reserve(mesh.n_faces());
+  for (std::size_t f = 0; f < mesh.n_faces(); ++f) {
+    if (!out.blends_ && !flat_color(mesh, f)) {
+      if (!is_crisp(mesh)) return std::nullopt;
+      out.blends_ = true;
+    }
+    colors.push_back(usual_color(mesh.color, f));
+  }
   const auto number_all = [&] {
-    for (std::size_t f = 0; f < colors.size(); ++f) {
-      const auto [known, is_new] = out.number_.try_emplace(colors[f] & out.mask_, out.n_regions());
+    for (const auto& [color, corner] : colors) {
+      const auto [known, is_new] = out.number_.try_emplace(color & out.mask_, out.n_regions());
       if (is_new) {
-        Color& color = out.colors_.emplace_back();
-        std::copy_n(mesh.color.at(mesh.color.index[3 * f]), out.width_, color.begin());
+        Color& value = out.colors_.emplace_back();
+        std::copy_n(mesh.color.at(mesh.color.index[corner]), out.width_, value.begin());
       }
       out.regions_.push_back(known->second);
       if (out.n_regions() > most_regions) return false;
@@ -49,6 +88,14 @@ std::optional<FlatColors> FlatColors::of(const Mesh& mesh) {
     out.regions_.clear();
   }
   if (out.n_regions() < 2) return std::nullopt;
+  return out;
+}
+
+std::optional<Mesh> with_whole_faces(const Mesh& mesh) {
+  const auto colors = FlatColors::of(mesh);
+  if (!colors || !colors->blends()) return std::nullopt;
+  std::optional<Mesh> out = mesh;
+  colors->paint(*out, colors->regions());
   return out;
 }
 

@@ -33,7 +33,8 @@ class Ladder {
         samples_(part.samples.begin(), part.samples.end()),
         surface_(triangles_of(part.mesh)),
         nearest_(surface_),
-        colors_(FlatColors::of(part.mesh)) {
+        colors_(FlatColors::of(part.mesh)),
+        painted_(with_whole_faces(part.mesh)) {
     if (colors_) {
       original_.regions = &regions_.emplace(surface_, colors_->regions(), colors_->n_regions());
       find_regions(original_, samples_);
@@ -93,11 +94,12 @@ class Ladder {
   /// By the criterion, and where features and topology hold that back, by meshoptimizer, which minds them less; what is
   /// left at the end.
   PlainMesh collapse(std::size_t last) {
-    Mesh level = run(part_.mesh, part_.collapse, last);
+    const Mesh& first = painted_ ? *painted_ : part_.mesh;
+    Mesh level = run(first, part_.collapse, last);
     const auto freely = Criterion::meshopt;
     if (level.n_faces() > most_fitted && part_.collapse.criterion != freely && info(freely).missing.empty() &&
         !part_.mesh.lightcoord.present()) {
-      Mesh whole = part_.mesh;
+      Mesh whole = first;
       for (Mesh* mesh : {&whole, &level})
         for (Attribute* a : mesh->attributes()) a->clear();
       auto from_level = std::exchange(rungs_, {rungs_.front()});
@@ -200,6 +202,7 @@ class Ladder {
   Triangles surface_;
   ClosestPoint nearest_;
   std::optional<FlatColors> colors_;
+  std::optional<Mesh> painted_;
   std::optional<ClosestOfLabel> regions_;
   Original original_{surface_, nearest_};
   std::vector<Rung> rungs_;

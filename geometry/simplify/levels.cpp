@@ -54,14 +54,15 @@ double thread_seconds() {
 
 class Levels {
  public:
-  Levels(const Mesh& first, const LevelOptions& options) : first_(first), options_(options), n_last_(first.n_faces()) {}
+  Levels(const Mesh& first, const LevelOptions& options)
+      : first_(first), painted_(with_whole_faces(first)), options_(options), n_last_(first.n_faces()) {}
 
   std::vector<MeshLevel> run() {
     if (!options_.errors.empty()) {
       for (double e : options_.errors) add_within(e);
       return std::move(levels_);
     }
-    Collapser c(first_, options_.collapse);
+    Collapser c(painted_ ? *painted_ : first_, options_.collapse);
     for (double r : options_.ratios) {
       c.run_to(std::max(faces_of_a_box, static_cast<std::size_t>(r * static_cast<double>(first_.n_faces()))));
       if (saves_enough(c.n_faces())) add(measured(first_, c.mesh(), options_.collapse));
@@ -86,7 +87,7 @@ class Levels {
     std::optional<MeshLevel> best;
     double estimate = error, low = 0, high = std::numeric_limits<double>::infinity();
     for (int i = 0; i < tries; ++i) {
-      Collapser c(first_, options_.collapse);
+      Collapser c(painted_ ? *painted_ : first_, options_.collapse);
       c.run_to(faces_of_a_box, estimate);
       auto level = measured(first_, c.mesh(), options_.collapse);
       const bool fits = level.error <= error;
@@ -99,6 +100,7 @@ class Levels {
   }
 
   const Mesh& first_;
+  const std::optional<Mesh> painted_;
   const LevelOptions& options_;
   std::size_t n_last_;
   std::vector<MeshLevel> levels_;
@@ -146,7 +148,11 @@ std::vector<std::string> criterion_names() {
 }
 
 LevelMaker::LevelMaker(const Mesh& first, const CollapseOptions& options)
-    : first_(first), options_(options), seconds_(-thread_seconds()), collapser_(first, options) {
+    : first_(first),
+      painted_(with_whole_faces(first)),
+      options_(options),
+      seconds_(-thread_seconds()),
+      collapser_(painted_ ? *painted_ : first, options) {
   seconds_ += thread_seconds();
 }
 

@@ -53,6 +53,7 @@ class LevelMaker {
 
  private:
   const Mesh& first_;
+  const std::optional<Mesh> painted_;
   const CollapseOptions& options_;
   double seconds_;  // first: it has the time from when the collapser is made
   Collapser collapser_;

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "geometry/closest_point.h"
 #include "geometry/deviation.h"
+#include "geometry/flat_colors.h"
 #include "geometry/geometry.h"
 #include "geometry/simplify/shared_borders.h"
 
@@ -29,7 +30,8 @@ class FacesByError {
  public:
   FacesByError(const Mesh& mesh, const CollapseOptions& options, double scale) {
     constexpr double share = 0.97;  // from sample to sample
-    Collapser c(mesh, options);
+    const auto painted = with_whole_faces(mesh);
+    Collapser c(painted ? *painted : mesh, options);
     samples_.push_back({0, static_cast<double>(mesh.n_faces())});
     for (std::size_t n = mesh.n_faces(); n > faces_of_a_box;) {
       n = std::max(faces_of_a_box, std::min(n - 1, static_cast<std::size_t>(static_cast<double>(n) * share)));

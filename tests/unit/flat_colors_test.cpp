@@ -51,8 +51,25 @@ TEST_CASE("flat colors: regions are colours of whole faces", "[levels]") {
     CHECK(colors->regions_of(m)[31] == colors->regions()[31]);
   }
   SECTION("one colour is nothing to be told apart") { CHECK_FALSE(FlatColors::of(sheet(4, 0))); }
-  SECTION("colours of vertices blend") {
+  SECTION("colours of vertices are those of regions, and blend where these meet") {
     m.color.index[0] = 1;
+    const auto blended = FlatColors::of(m);
+    REQUIRE(blended);
+    CHECK(blended->blends());
+    CHECK(std::ranges::equal(blended->regions(), colors->regions()));
+    const auto whole = with_whole_faces(m);
+    REQUIRE(whole);
+    CHECK(std::ranges::equal(colors->regions_of(*whole), colors->regions()));
+    CHECK_FALSE(with_whole_faces(*whole));
+  }
+  SECTION("a colour that no whole face has blends smoothly") {
+    m.color.values.insert(m.color.values.end(), {0.5, 0.5, 0.5});
+    m.color.index[0] = 2;
+    CHECK_FALSE(FlatColors::of(m));
+  }
+  SECTION("faces of one colour are the exception where colours blend") {
+    for (std::size_t c = 0; c < m.color.index.size(); c += 3) m.color.index[c] = c < 54 ? m.color.index[c] : 0;
+    for (std::size_t c = 0; c < m.color.index.size(); c += 3) m.color.index[c + 1] = 1;
     CHECK_FALSE(FlatColors::of(m));
   }
   SECTION("painted faces have it again") {
