@@ -191,7 +191,7 @@ void keep_made_pictures(Scene& scene, PassContext& ctx) {
 
 /// The passes that the user wants, and those that pieces need: light is part of the pictures.
 bool expand(Document& document, std::string_view passes) {
-  constexpr std::string_view needed = "lower-vrml1,expand,lower-x3d,combine-lightmap,join{touching=true}";
+  constexpr std::string_view needed = "lower-vrml1,expand,lower-x3d,combine-lightmap,join{loose=true}";
   std::string why;
   auto pipeline = Pipeline::parse(passes.empty() ? needed : passes, why);
   if (!pipeline) return false;

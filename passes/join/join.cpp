@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "base/silent_task.h"
 #include "geometry/geometry.h"
 #include "passes/analysis/tag_watch.h"
 #include "passes/analysis/usage.h"
@@ -118,8 +119,9 @@ class Joining {
   Joining(Scene& scene, const JoinOptions& options, PassContext& ctx)
       : scene_(scene),
         named_(options.named),
-        touching_(options.touching),
+        loose_(options.loose),
         ctx_(ctx),
+        silent_(ctx),
         usage_(scene),
         contents_(scene, usage_, options.named) {}
 
@@ -138,7 +140,7 @@ class Joining {
   bool plain(NodeId n) const;
   bool own(NodeId n) const { return n && usage_.once(n) && (named_ || scene_.name(n).empty()); }
   std::string key(NodeId shape);
-  void join_touching(std::span<const NodeId> shapes);
+  void join_loose(std::span<const NodeId> shapes);
   void join_shapes(std::span<const NodeId> shapes);
   bool append(NodeId geometry, bool own_points);
   void start();
@@ -160,8 +162,9 @@ class Joining {
   }
 
   Scene& scene_;
-  bool named_, touching_;
+  bool named_, loose_;
   PassContext& ctx_;
+  SilentTask silent_;
   Usage usage_;
   Contents contents_;
   Mesh mesh_, joined_;
@@ -196,8 +199,8 @@ bool Joining::join_list(std::vector<NodeId>& children) {
   gone_.resize(scene_.node_count());
   for (const auto& g : groups) {
     if (g.size() < 2) continue;
-    if (touching_)
-      join_touching(g);
+    if (loose_)
+      join_loose(g);
     else
       join_shapes(g);
   }
@@ -252,16 +255,20 @@ std::string Joining::key(NodeId shape) {
   return key.text();
 }
 
-void Joining::join_touching(std::span<const NodeId> shapes) {
+void Joining::join_loose(std::span<const NodeId> shapes) {
+  constexpr std::size_t most_faces = 4;
   Touching touching;
+  std::vector<NodeId> loose;
   for (const NodeId shape : shapes) {
     MeshJob job{scene_, geometry_of(shape), mesh_, scratch_, silent_};
     read_mesh(job);
+    if (mesh_.n_faces() > most_faces) continue;
     touching.add(mesh_.positions.span(), mesh_.corners);
+    loose.push_back(shape);
   }
   for (const auto& group : touching.groups()) {
     std::vector<NodeId> joined;
-    for (const auto i : group) joined.push_back(shapes[i]);
+    for (const auto i : group) joined.push_back(loose[i]);
     if (joined.size() > 1) join_shapes(joined);
   }
 }

@@ -25,8 +25,8 @@ Shapes in the same group, or at the top of the file, are joined if
   contents;
 - no texture is mapped by the default coordinates, which depend on the extent of the geometry.
 
-With `touching` only those that have points in common become one, so parts that look alike stay apart: what levels of
-detail need, which weigh parts against each other.
+With `loose` only single faces become one, and only where they touch: the faces of one part. Parts that look alike stay
+apart, for levels of detail weigh parts against each other. `simplify` and `tiles` do so by default.
 
 The joined Shape takes the place of the first one. A Coordinate that has a name or several uses stays: the Shapes that
 share it are joined with each other, and no point is copied. Other points, colours, normals and texture coordinates are
@@ -46,12 +46,12 @@ Cost: linear in the nodes and in the joined indices.)";
       {"join.meshes-after", "geometry nodes drawn after the pass"},
   };
 
-  bool named = false, touching = false;
+  bool named = false, loose = false;
 
   void fields(auto&& f) {
     f("named", named, "also join Shapes with a DEF name, if no ROUTE or Script uses it; the name is lost");
-    f("touching", touching,
-      "only join Shapes that have points in common, by way of others or directly: faces of one part");
+    f("loose", loose,
+      "only join loose faces: Shapes of up to four faces that have points in common, directly or by way of others");
   }
 };
 

@@ -405,9 +405,9 @@ std::string_view standard_pipeline(const Flags& flags) {
   if (flags.pipeline_given) return flags.progressive || flags.save.dump ? "lower-vrml1,lower-x3d{vrml97=true}" : "vrml";
   if (flags.progressive) return "lower-vrml1,expand,lower-x3d{vrml97=true},weld";
   if (const auto to = output_of(flags.output); to && to->format->parsed != Format::vrml97)
-    return "lower-vrml1,inline,lower-x3d,join{touching=true},weld";  // the format keeps more than VRML97 does
-  return flags.save.dump ? "lower-vrml1,inline,lower-x3d{vrml97=true},join{touching=true},weld"
-                         : "lower-vrml1,inline,lower-x3d{vrml97=true},combine-lightmap,join{touching=true},weld";
+    return "lower-vrml1,inline,lower-x3d,join{loose=true},weld";  // the format keeps more than VRML97 does
+  return flags.save.dump ? "lower-vrml1,inline,lower-x3d{vrml97=true},join{loose=true},weld"
+                         : "lower-vrml1,inline,lower-x3d{vrml97=true},combine-lightmap,join{loose=true},weld";
 }
 
 /// The names that --output asks for; makes its folder when it is one.
