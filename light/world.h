@@ -113,8 +113,11 @@ class LightWorld {
   bool is_bulb(std::uint32_t use) const { return facts_[use].bulb; }
   /// What of the light passes along so much of a ray: 0 when something opaque stands there.
   double transmittance(const Ray& ray, double distance) const { return passing(ray, distance, false); }
-  /// The same of the light of a light node, which bulbs let through.
-  double lamp_transmittance(const Ray& ray, double distance) const { return passing(ray, distance, true); }
+  /// The same of the light of a light node, which bulbs let through, and which is not within a face by rounding: lamps
+  /// often stand in the plane of a ceiling.
+  double lamp_transmittance(const Ray& ray, double distance) const {
+    return passing(ray, distance - radius() / (1 << 20), true);
+  }
   /// Radiance of the sky in a direction of the world.
   V3 sky(const V3& direction) const;
   bool has_sky() const { return has_sky_; }

@@ -60,7 +60,8 @@ void Hierarchy::build() {
   auto add = [&](Json scene) {
     Nodes all;
     Vec3 origin{0, 0, 0};
-    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3 && c_.file.is_made_here())
+    // Programs that have worked on the file since leave it where it is.
+    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3)
       origin = {v[0], v[1], v[2]};
     PartGroups groups;
     part_groups_ = &groups;

@@ -13,6 +13,14 @@ const char* Lexer::behind_blanks(const char* p) const {
   return p;
 }
 
+Token Lexer::next_name() {
+  Token t = next();
+  if (t.kind != Kind::word || p_ == end_ || *p_ != '"') return t;
+  while (p_ < end_ && (*p_ == '"' || class_of(*p_) == CharClass::other)) ++p_;
+  t.end = offset();
+  return t;
+}
+
 bool Lexer::brace_follows(Token t) const {
   const char* const p = behind_blanks(begin_ + t.end);
   return p < end_ && *p == '{';

@@ -42,6 +42,8 @@ class Lexer {
     if (at_ != p_) read();
     return token_;
   }
+  /// Where a name is expected, behind DEF and USE: a quote in it, as in 12"-PL-3001, begins no string.
+  Token next_name();
   /// Whether the token behind that one is an opening brace, without reading it.
   bool brace_follows(Token) const;
 

@@ -153,14 +153,14 @@ NodeId Parser::node_statement() {
   auto w = text(t);
   if (w == "NULL") return {};
   if (w == "USE") {
-    Token name = lex_.next();
+    Token name = lex_.next_name();
     if (!is_word(name)) return NodeId{};
     return build_.use(name_of(name), span(name));
   }
   std::string_view def;
   while (text(t) == "DEF") {
     if (!def.empty()) diag_.report(Diag::def_without_node, span(t), def);
-    Token name = lex_.next();
+    Token name = lex_.next_name();
     if (!is_word(name)) return NodeId{};
     if (name_like(name) && !begins_statement(text(name)) &&
         lex_.peek().kind == Kind::open_brace) {  // "DEF Transform {": the name is missing

@@ -29,7 +29,7 @@ std::string_view Tokens::utf8(std::string_view s, Span where) {
 
 std::string_view Tokens::new_name(Token t) {
   auto s = text(t);
-  if (s.find_first_of("'\\") != s.npos || !name_like(t)) diag_.report(Diag::name_repaired, span(t), s);
+  if (s.find_first_of("'\\\"") != s.npos || !name_like(t)) diag_.report(Diag::name_repaired, span(t), s);
   return name_of(t);
 }
 

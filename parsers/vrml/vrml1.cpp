@@ -120,13 +120,13 @@ NodeId Vrml1Parser::node_statement() {
   Token t = lex_.next();
   if (text(t) == "NULL") return {};
   if (text(t) == "USE") {
-    Token name = lex_.next();
+    Token name = lex_.next_name();
     if (!is_word(name)) return NodeId{};
     return build_.use(name_of(name), span(name));
   }
   std::string_view def;
   if (text(t) == "DEF") {
-    Token name = lex_.next();
+    Token name = lex_.next_name();
     if (!is_word(name)) return NodeId{};
     if (is_name(name) && lex_.peek().kind == Kind::open_brace) {
       diag_.report(Diag::def_without_name, span(name));

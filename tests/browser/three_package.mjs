@@ -155,17 +155,17 @@ Shape { appearance Appearance {
 DEF C TimeSensor { cycleInterval ${cycle} loop TRUE }
 ${drive('Red', 'ColorInterpolator', '1 0 0, 0 1 0', 'M.diffuseColor')}${drive('Glow', 'ColorInterpolator', '0 0 1, 0 0 0.2', 'M.emissiveColor')}
 ${drive('Fade', 'ScalarInterpolator', '0 0.8', 'M.transparency')}${drive('Dim', 'ScalarInterpolator', '1 0', 'Lamp.intensity')}
-${drive('Slide', 'PositionInterpolator2D', '0 0, 1 0', 'T.translation')}`);
+${drive('Slide', 'PositionInterpolator2D', '0 0, 1 0', 'T.translation')}${drive('Turn', 'ScalarInterpolator', '0 0.0001', 'T.rotation')}`);
   convert(world, 'properties.glb', '--animation-pointer');
   const {page, faults} = await open('properties.glb');
   const seen = await page.evaluate(async time => {
     const {AnimationMixer} = await import('three'), {gltf} = window.example, mixer = new AnimationMixer(gltf.scene);
     let material, lamp;
     gltf.scene.traverse(o => { material ??= o.material; lamp ??= o.isPointLight ? o : undefined; });
-    const full = lamp.intensity;
+    const full = lamp.intensity, placeOf = map => { if (map.matrixAutoUpdate) map.updateMatrix(); return map.matrix.elements.slice(6, 8); };
     for (const clip of gltf.animations) mixer.clipAction(clip).play();
     mixer.setTime(time);
-    return {color: material.color.toArray(), emissive: material.emissive.toArray(), opacity: material.opacity, transparent: material.transparent, map: material.map.offset.toArray(), dimmed: lamp.intensity / full};
+    return {color: material.color.toArray(), emissive: material.emissive.toArray(), opacity: material.opacity, transparent: material.transparent, map: placeOf(material.map), dimmed: lamp.intensity / full};
   }, fraction * cycle);
   assert.deepEqual(faults, []);
   await page.close();

@@ -89,6 +89,16 @@ TEST_CASE("light: a PointLight shines through the glass that shines around it, a
   CHECK(irradiance(around(shining, 3)) == Approx(total(Room(walls).irradiance(up, {.rays = 64}))));
 }
 
+TEST_CASE("light: a PointLight in the plane of a ceiling shines at all of the floor") {
+  const std::string ceiling = "Transform { translation 0.3 0.1 3.05 children Shape { geometry Box { size 7 7 0.1 } } }";
+  const std::string lamp = "PointLight { location 0.1 0.2 3 attenuation 0 0 1 }";
+  const Room bare(lamp), room(lamp + ceiling);
+  for (int i = 0; i < 100; ++i) {
+    const Point floor{{0.057 * i - 2.7, 0.031 * i - 1.5, 0}, {0, 0, 1}};
+    CHECK(total(room.irradiance(floor, {.rays = 1})) >= Approx(total(bare.irradiance(floor, {.rays = 1}))));
+  }
+}
+
 TEST_CASE("light: a sky with walls") {
   LightOptions white{.sky = LightOptions::Sky::constant};
   check("open plane", Room("", white), up, pi);

@@ -65,7 +65,7 @@ class Namer {
   /// What a url is to be; empty: it stays.
   std::string written(std::string_view url) {
     const auto fragment = url.substr(std::min(url.find('#'), url.size()));
-    if (fragment.size() == url.size()) return "";
+    if (fragment.size() == url.size() || url_kind(url) != UrlKind::file) return "";
     const auto found = find_url(files_, url, main_);
     if (found.state != AllowedFiles::found && found.state != AllowedFiles::repaired) return "";
     const auto at = plan_.by_path.find(fs::path(found.path).lexically_normal().string());

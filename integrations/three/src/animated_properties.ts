@@ -1,6 +1,6 @@
 // Animations of what is no node (KHR_animation_pointer): colours, transparency and places of pictures of materials, colour and brightness of lamps.
 import {ColorKeyframeTrack, InterpolateDiscrete, InterpolateLinear, NumberKeyframeTrack, VectorKeyframeTrack,
-  type BufferAttribute, type InterpolationModes, type KeyframeTrack, type Light, type Material, type Mesh, type Object3D} from 'three';
+  type BufferAttribute, type InterpolationModes, type KeyframeTrack, type Light, type Material, type Mesh, type MeshStandardMaterial, type Object3D} from 'three';
 import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
 
 interface Channel {
@@ -35,14 +35,28 @@ const one = (make: (object: Object3D, samples: Samples) => KeyframeTrack): MakeT
 const color = track(ColorKeyframeTrack, 'material.color', 0, 3), opacity = track(NumberKeyframeTrack, 'material.opacity', 3, 4);
 const picture = 'pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/';
 
+/// A picture that moves: its matrix is made of offset, scale and rotation in the order of glTF, scale first, whenever it is drawn.
+function placed(make: (object: Object3D, samples: Samples) => KeyframeTrack): MakeTracks {
+  return (object, samples) => {
+    const map = ((object as Mesh).material as MeshStandardMaterial).map;
+    if (!map) return [];
+    map.matrixAutoUpdate = true;
+    map.updateMatrix = () => {
+      const {offset, repeat, rotation} = map, c = Math.cos(rotation), s = Math.sin(rotation);
+      map.matrix.set(repeat.x * c, repeat.y * s, offset.x, -repeat.x * s, repeat.y * c, offset.y, 0, 0, 1);
+    };
+    return [make(object, samples)];
+  };
+}
+
 const ofMaterial: Record<string, MakeTracks> = {
   'pbrMetallicRoughness/baseColorFactor': (object, samples) => [color(object, samples), opacity(object, samples)],
   'pbrMetallicRoughness/metallicFactor': one(track(NumberKeyframeTrack, 'material.metalness', 0, 1)),
   'pbrMetallicRoughness/roughnessFactor': one(track(NumberKeyframeTrack, 'material.roughness', 0, 1)),
   emissiveFactor: one(track(ColorKeyframeTrack, 'material.emissive', 0, 3)),
-  [`${picture}offset`]: one(track(VectorKeyframeTrack, 'map.offset', 0, 2)),
-  [`${picture}scale`]: one(track(VectorKeyframeTrack, 'map.repeat', 0, 2)),
-  [`${picture}rotation`]: one(track(NumberKeyframeTrack, 'map.rotation', 0, 1)),
+  [`${picture}offset`]: placed(track(VectorKeyframeTrack, 'map.offset', 0, 2)),
+  [`${picture}scale`]: placed(track(VectorKeyframeTrack, 'map.repeat', 0, 2)),
+  [`${picture}rotation`]: placed(track(NumberKeyframeTrack, 'map.rotation', 0, 1)),
 };
 
 const ofLight: Record<string, MakeTracks> = {

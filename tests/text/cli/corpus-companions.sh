@@ -97,6 +97,13 @@ grep -ho 'url.*' left/out/a.wrl
 wrlkit check left/out/a.wrl | tail -1
 find left/out -type f -not -path '*.wrlkit*' | sort
 
+echo '-- an address elsewhere is not a file of that name'
+mkdir -p away/in
+box away/in/other.wrl
+(echo '#VRML V2.0 utf8'; echo 'Anchor { url [ "other.wrl#A" "http://example.org/other.wrl#B" ] children Shape { geometry Box { } } }') > away/in/a.wrl
+run away/in -o away/out --format x3d
+grep -ho "url='[^']*'" away/out/a.x3d
+
 echo '-- a folder of inputs below'
 mkdir -p p/units
 shape none.png | tee p/main.wrl p/units/a.wrl > log
