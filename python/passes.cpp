@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "base/text/nearest_name.h"
-#include "python/beside.h"
+#include "python/interrupts.h"
 #include "python/world.h"
 #include "tools/cli/cli.h"
 #include "tools/cli/python_passes.h"

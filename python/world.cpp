@@ -9,7 +9,7 @@
 #include "convert/option_text.h"
 #include "convert/profiles.h"
 #include "geometry/geometry.h"
-#include "python/beside.h"
+#include "python/interrupts.h"
 #include "scenegraph/verify.h"
 #include "tools/cli/python_passes.h"
 #include "tools/cli/session.h"
@@ -131,7 +131,7 @@ LoadOptions load_options(const Reading& reading) {
 std::shared_ptr<PyWorld> world_of(const std::string& name,
                                   const std::function<Document(const std::stop_token&)>& read) {
   Document document;
-  run_beside([&](const std::stop_token& stop) { document = read(stop); });
+  run_interruptibly([&](const std::stop_token& stop) { document = read(stop); });
   if (!document) fail(name + ": no scene can be read from it", document.messages());
   return std::make_shared<PyWorld>(std::move(document));
 }
@@ -238,7 +238,7 @@ PyWorld::Counts PyWorld::run(Pipeline& pipeline) {
   Said said(*this);
   const InUse use(*this);
   const RunByThread run(this);
-  const auto cause = run_beside([&](const std::stop_token& stop) {
+  const auto cause = run_interruptibly([&](const std::stop_token& stop) {
     PassContext ctx(said.diag(), stats, resources(), nullptr, stop);
     good = pipeline.run(all, ctx) && (!ctx.resources || write_named_files(*ctx.resources, ctx.diag));
   });
@@ -287,7 +287,7 @@ Saved PyWorld::written(const std::string& name, const Sink* sink, const py::kwar
   Diagnostics faults(all.sources);
   Said said(*this);
   const InUse use(*this);
-  const auto cause = run_beside([&](const std::stop_token& stop) {
+  const auto cause = run_interruptibly([&](const std::stop_token& stop) {
     is_valid = verify(all, Level::authored, faults);
     if (!is_valid) return;
     PassContext ctx(said.diag(), uncounted, resources(), nullptr, stop);
@@ -322,7 +322,7 @@ py::object PyWorld::info(bool recognise) {
   check_thread();
   Said said(*this);
   const InUse use(*this);
-  run_beside([&](const std::stop_token& stop) {
+  run_interruptibly([&](const std::stop_token& stop) {
     PassContext ctx(said.diag(), uncounted, resources(), nullptr, stop);
     if (const auto made = wrlkit::info(copy(ctx), {recognise})) text = info_json(path(), *made, ctx.diag);
   });
@@ -384,8 +384,8 @@ std::vector<MessageView> convert(const std::string& source, const std::string& t
   options.save.pipeline = pipeline ? pipeline : recipe.pipeline;
   for (const auto& flag : recipe.warnings) apply_warning_flag(options.load, flag);
   Converted made;
-  const auto cause =
-      run_beside([&](const std::stop_token& stop) { made = wrlkit::convert(source, target, options, {.stop = stop}); });
+  const auto cause = run_interruptibly(
+      [&](const std::stop_token& stop) { made = wrlkit::convert(source, target, options, {.stop = stop}); });
   if (!made) fail(source + ": nothing could be made of it", made.messages, cause);
   return made.messages;
 }

@@ -16,7 +16,7 @@ namespace wrlkit::python {
 /// Runs work with Python released, and returns when it has ended: the exception that a pass in Python has ended with,
 /// or None. What the work throws is thrown here. An exception of a handler asks the work to stop, and is thrown when it
 /// has. Called with Python held.
-pybind11::object run_beside(const std::function<void(const std::stop_token&)>& work);
+pybind11::object run_interruptibly(const std::function<void(const std::stop_token&)>& work);
 
 /// For work: calls f with Python held, on the thread that waits for the work; on this one when none does, as in a verb
 /// of the program.

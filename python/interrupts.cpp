@@ -1,4 +1,4 @@
-#include "python/beside.h"
+#include "python/interrupts.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -20,7 +20,7 @@ using Work = std::function<void(const std::stop_token&)>;
 /// Work that a thread of Python's waits for.
 class Waited {
  public:
-  py::object run_beside(const Work& work);
+  py::object run_on_thread(const Work& work);
   py::object run_here(const Work& work);
   void call(const std::function<void()>& f);
   bool is_fault_of_pass(const py::error_already_set& exception);
@@ -58,7 +58,7 @@ bool is_main_thread() {
   return main.attr("ident").cast<unsigned long>() == PyThread_get_thread_ident();
 }
 
-py::object Waited::run_beside(const Work& work) {
+py::object Waited::run_on_thread(const Work& work) {
   std::jthread thread([this, &work] {
     work_of_thread = this;
     try {
@@ -157,9 +157,9 @@ void Waited::call(const std::function<void()>& f) {
 
 }  // namespace
 
-py::object run_beside(const Work& work) {
+py::object run_interruptibly(const Work& work) {
   Waited waited;
-  return is_main_thread() ? waited.run_beside(work) : waited.run_here(work);
+  return is_main_thread() ? waited.run_on_thread(work) : waited.run_here(work);
 }
 
 void call_python(const std::function<void()>& f) {
