@@ -97,6 +97,13 @@ def test_where_a_pass_runs(project):
     assert places == sorted(places)
 
 
+def test_vrml1():
+    world = wrlkit.load_bytes(b'#VRML V1.0 ascii\nSeparator { Material { diffuseColor 1 0 0 } Cube { } }')
+    assert world.nodes('Material')[0].diffuseColor.tolist() == [[1, 0, 0]]
+    world.run('lower-vrml1')
+    assert world.nodes('Material')[0].diffuseColor == (1, 0, 0)
+
+
 def test_the_examples_and_pages_that_it_names_are_there():
     links = re.findall(r'\]\((.*?)\)', PAGE)
     assert len(links) >= 5 and [link for link in links if not (ROOT / 'docs' / link).exists()] == []
