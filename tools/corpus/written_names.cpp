@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/io/allowed_files.h"
+#include "base/io/url.h"
 #include "scenegraph/urls.h"
 #include "scenegraph/walk.h"
 
