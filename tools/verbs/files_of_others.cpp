@@ -86,7 +86,7 @@ void keep_files_of_others(Session& s, const Output& to) {
   auto& written = s.resources().files_written();
   std::error_code fault;
   const auto folder = fs::path(to.path).parent_path();
-  const auto whole = fs::weakly_canonical(fs::absolute(to.path, fault)).parent_path();
+  const auto whole = fs::weakly_canonical(fs::absolute(to.path, fault), fault).parent_path();
   const auto add = [&](const fs::path& file) {
     written.add((folder / file).string());
     written.add((whole / file).string());
