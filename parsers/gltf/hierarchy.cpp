@@ -61,8 +61,7 @@ void Hierarchy::build() {
     Nodes all;
     Vec3 origin{0, 0, 0};
     // Programs that have worked on the file since leave it where it is.
-    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3)
-      origin = {v[0], v[1], v[2]};
+    if (auto v = vrml97(scene)["origin"].numbers(); v.size() == 3) origin = {v[0], v[1], v[2]};
     PartGroups groups;
     part_groups_ = &groups;
     for (Json n : scene["nodes"].elements())
@@ -112,16 +111,14 @@ void Hierarchy::visit(std::uint32_t n, std::size_t depth, const Vec3& origin, No
   if (depth + 4 > limits_.depth) return c_.diag().report(Diag::too_deep, c_.file.where(json), limits_.depth);
   state_[n] = State::open;
   const auto before = out.size();
-  make(n, depth, origin, out);
+  const Json levels = lod_of(json);
+  if (levels && !c_.file.is_whole())
+    level_of_detail(n, depth, origin, out);
+  else
+    make(n, depth, origin, out);
   if (out.size() == before + 1) made_[n] = out.back();
   if (is_hidden(json) && !is_choice(n)) hide(c_, json, before, out);
-  const Json levels = lod_of(json);
-  if (levels && c_.file.is_whole()) {
-    for (Json l : levels.elements())
-      if (auto i = c_.file.index(Table::nodes, l); i != none) visit(i, depth, origin, out);
-  } else if (levels && made_[n]) {
-    made_[n] = out.back() = level_of_detail(n, made_[n], depth, origin);
-  }
+  if (levels && c_.file.is_whole()) add_levels(levels, depth, origin, out);
   state_[n] = State::done;
 }
 
@@ -277,12 +274,36 @@ NodeId Hierarchy::transform(Json at, const TransformFields& p, const Nodes& belo
   return n;
 }
 
+/// The one node that a level is: parts of a merged mesh are many. Null where nothing is made.
+NodeId Hierarchy::level(Json at, const std::function<void(Nodes&)>& make_nodes) {
+  Nodes made;
+  PartGroups groups;
+  auto* above = std::exchange(part_groups_, &groups);
+  make_nodes(made);
+  part_groups_ = above;
+  groups.finish(c_.scene);
+  if (made.size() < 2) return made.empty() ? NodeId{} : made[0];
+  const NodeId group = c_.scene.add(nodes::Group, c_.file.where(at));
+  c_.scene.set(group, nodes::group::children, made);
+  return group;
+}
+
+void Hierarchy::add_levels(Json ids, std::size_t depth, const Vec3& origin, Nodes& out) {
+  for (Json id : ids.elements()) {
+    const auto i = c_.file.index(Table::nodes, id);
+    if (i == none) continue;
+    const NodeId shown = level(id, [&](Nodes& made) { visit(i, depth, origin, made); });
+    if (shown) out.push_back(shown);
+  }
+}
+
 /// MSFT_lod: a level is shown down to a part of the window's height, VRML's up to a distance.
-NodeId Hierarchy::level_of_detail(std::uint32_t n, NodeId first, std::size_t depth, const Vec3& origin) {
+void Hierarchy::level_of_detail(std::uint32_t n, std::size_t depth, const Vec3& origin, Nodes& out) {
   const Json json = c_.file.at(Table::nodes, n);
-  Nodes levels{first};
-  for (Json l : lod_of(json).elements())
-    if (auto i = c_.file.index(Table::nodes, l); i != none) visit(i, depth + 1, origin, levels);
+  Nodes levels;
+  levels.push_back(level(json, [&](Nodes& made) { make(n, depth, origin, made); }));
+  if (!levels[0]) return;
+  add_levels(lod_of(json), depth + 1, origin, levels);
   NodeId lod = c_.add(nodes::LOD, json);
   c_.scene.set(lod, nodes::lod::children, levels);
   const auto ball = bounds_below(c_.file, n);
@@ -296,7 +317,7 @@ NodeId Hierarchy::level_of_detail(std::uint32_t n, NodeId first, std::size_t dep
     const Vec3 center = ball.center + origin;
     if (center != Vec3{0, 0, 0}) c_.scene.set(lod, nodes::lod::center, center);
   }
-  return lod;
+  out.push_back(lod);
 }
 
 NodeId Hierarchy::shape(const Meshes::Part& part, Json at) {

@@ -7,6 +7,7 @@
 //
 // Everything is posed as the file shows it: skins by the transforms of their joints, morph targets by their weights.
 #pragma once
+#include <functional>
 #include <set>
 
 #include "parsers/gltf/features.h"
@@ -51,7 +52,9 @@ class Hierarchy {
   Nodes children(std::uint32_t node, std::size_t depth, const Vec3& origin);
   NodeId kept(std::uint32_t node, Json type_and_fields, const TransformFields&, Nodes children);
   NodeId implied(std::uint32_t node, const TransformFields&, Nodes children);
-  NodeId level_of_detail(std::uint32_t node, NodeId first, std::size_t depth, const Vec3& origin);
+  NodeId level(Json at, const std::function<void(Nodes&)>& make_nodes);
+  void add_levels(Json ids, std::size_t depth, const Vec3& origin, Nodes& out);
+  void level_of_detail(std::uint32_t node, std::size_t depth, const Vec3& origin, Nodes& out);
   Nodes shapes(std::uint32_t node, const TransformFields&);
   NodeId shape(const Meshes::Part&, Json at);
 
