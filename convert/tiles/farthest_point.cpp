@@ -81,6 +81,7 @@ void FarthestPoint::add(std::span<const Piece> pieces, const Vec3& origin) {
 
 /// A triangle that is as near to a point as any, or as the farthest point is.
 std::uint32_t FarthestPoint::ask(const Vec3& p) {
+  if (!is_usable({p, p, p})) return ClosestPoint::no_guess;
   const auto found = nearest_.nearest(p, {}, guess_, farthest_);
   farthest_ = std::max(farthest_, found.distance);
   guess_ = found.triangle;
@@ -102,7 +103,7 @@ bool FarthestPoint::is_near(std::span<const Vec3> points, std::uint32_t triangle
 }
 
 void FarthestPoint::add(const Part& all) {
-  if (!std::isfinite(farthest_)) return;
+  if (!std::isfinite(farthest_) || !is_usable(all.corners)) return;
   open_.assign(1, all);
   // The largest parts first: when there are too many, those that are left are small.
   for (std::size_t i = 0; i < open_.size(); ++i) {

@@ -19,7 +19,7 @@ class FarthestPoint {
   FarthestPoint(const Soup& surface, double least);
 
   /// Adds the triangles of pieces; `origin` is that of the surface. Expected O(n log m) for n triangles here and m of
-  /// the surface, and for each that lies over several as much as for these.
+  /// the surface, and for each that lies over several as much as for these. What is not finite is left out.
   void add(std::span<const Piece> pieces, const Vec3& origin);
   /// No point is farther, of all that was added.
   double bound() const;

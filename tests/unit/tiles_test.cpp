@@ -357,6 +357,9 @@ TEST_CASE("tiles: full triangles that lie across coarse ones are cut along these
   auto roof = full;
   roof.mesh.positions.edit() = {0, 0, 0, 0, 0, 4, 2, 1, 0, 2, 1, 4, 4, 0, 0, 4, 0, 4};
   roof.mesh.corners = {0, 1, 3, 0, 3, 2, 2, 3, 5, 2, 5, 4};
+  auto wrong = full;
+  wrong.mesh.positions.edit()[0] = NAN;
+  CHECK(bound(wrong, coarse) <= 2e-6);
   // The point below the ridge is 2 / sqrt(5) from either side, and no other is farther.
   CHECK(bound(full, roof) >= 2 / std::sqrt(5.) - 1e-4);
   CHECK(bound(full, roof) <= 1.02 * 2 / std::sqrt(5.) + 1e-4);
