@@ -9,34 +9,16 @@ namespace {
 constexpr std::size_t most_parts = 80'000;  // of a triangle
 constexpr double tolerance = 0.02;          // of the distance
 
-/// How far along the way from `a` to `b` two triangles are equally far, to `close` metres, of which `of_a` is nearer to
-/// `a`. The difference of the distances is straight but for a few bends (regula falsi, of Illinois).
-double between(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& of_a, const std::array<Vec3, 3>& of_b,
-               double close) {
-  constexpr int most_tries = 40;
-  const auto excess = [&](double t) {
-    const Vec3 p = a + t * (b - a);
-    return std::sqrt(squared_distance(p, of_a)) - std::sqrt(squared_distance(p, of_b));
-  };
-  double low = 0, high = 1, at_low = excess(0), at_high = excess(1);
-  if (!(at_low < 0 && at_high > 0)) return 0.5;
-  double t = 0.5, last = 0;
-  for (int i = 0; i < most_tries; ++i) {
-    t = (low * at_high - high * at_low) / (at_high - at_low);
-    const double here = excess(t);
-    if (std::abs(here) <= close) break;
-    if (here < 0) {
-      low = t;
-      at_low = here;
-      if (last < 0) at_high /= 2;
-    } else {
-      high = t;
-      at_high = here;
-      if (last > 0) at_low /= 2;
-    }
-    last = here;
+/// How far along the way from `a` to `b` two triangles are equally far, of which `of_a` is nearer to `a`.
+double between(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& of_a, const std::array<Vec3, 3>& of_b) {
+  constexpr int halvings = 22;
+  double low = 0, high = 1;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (low + high) / 2;
+    const Vec3 p = a + middle * (b - a);
+    (squared_distance(p, of_a) <= squared_distance(p, of_b) ? low : high) = middle;
   }
-  return t;
+  return (low + high) / 2;
 }
 
 std::array<Vec3, 8> corners_of_box(const Mesh& mesh, const Vec3& origin) {
@@ -53,10 +35,8 @@ FarthestPoint::FarthestPoint(const Soup& surface, double least)
 
 double FarthestPoint::bound() const { return std::max(farthest_, bound_); }
 
-/// Distances that differ by less are not told apart.
-double FarthestPoint::slack() const { return tolerance * std::max(farthest_, least_); }
-
-double FarthestPoint::enough() const { return farthest_ + slack(); }
+/// What need not be told from the farthest point.
+double FarthestPoint::enough() const { return farthest_ + tolerance * std::max(farthest_, least_); }
 
 void FarthestPoint::add(std::span<const Piece> pieces, const Vec3& origin) {
   std::vector<const Piece*> open;
@@ -140,7 +120,7 @@ void FarthestPoint::cut(const Part& part) {
     const std::size_t next = (k + 1) % 3;
     const double length = fast_length(c[next] - c[k]);
     if (near[k] == near[next] || length <= longest) continue;
-    const double t = between(c[k], c[next], triangles_[near[k]], triangles_[near[next]], slack() / 4);
+    const double t = between(c[k], c[next], triangles_[near[k]], triangles_[near[next]]);
     if (t < at_end || t > 1 - at_end) continue;
     longest = length;
     edge = k;

@@ -32,7 +32,6 @@ class FarthestPoint {
     std::array<std::uint32_t, 3> near;  // to each corner: a triangle of the surface
   };
 
-  double slack() const;
   double enough() const;
   std::uint32_t ask(const Vec3& p);
   bool is_near(std::span<const Vec3> points, std::uint32_t triangle);
