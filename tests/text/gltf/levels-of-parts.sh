@@ -1,5 +1,5 @@
 shown() { grep -E '^ *(LOD|Group|DEF.* Group|DEF.* Shape|range)' "$1"; }
-wrlkit convert -q %S/inputs/two_vessels.wrl %t.gltf -p 'weld,lod{scope=world}'
+wrlkit convert -q %S/inputs/vessels.wrl %t.gltf -p 'weld,lod{scope=world}'
 wrlkit convert -q %t.gltf %t.wrl
 shown %t.wrl
 echo '-- of another program'
