@@ -15,6 +15,7 @@
 #include "passes/join/touching.h"
 #include "scenegraph/equal.h"
 #include "scenegraph/nodes.h"
+#include "scenegraph/tags.h"
 #include "scenegraph/walk.h"
 
 namespace wrlkit {
@@ -233,6 +234,9 @@ bool Joining::may_join(NodeId shape) const {
   bool faces = scene_.is(g, nodes::IndexedFaceSet);
   if (!(faces || scene_.is(g, nodes::IndexedLineSet)) || !own(g) || !plain(g)) return false;
   const Parts parts = parts_of(g);
+  // What is known of one part is not known of another.
+  for (NodeId n : {shape, g, parts.coord, parts.color, parts.normal, parts.texcoord, parts.lightcoord})
+    if (has_tags(scene_, n)) return false;
   for (NodeId n : {parts.color, parts.normal, parts.texcoord, parts.lightcoord})
     if (n && !plain(n)) return false;
   if (!parts.coord || !plain(parts.coord) || has_opacity(g)) return false;

@@ -23,6 +23,7 @@ Shapes in the same group, or at the top of the file, are joined if
   creaseAngle, and all have or all lack colours, normals and texture coordinates;
 - Shape and geometry have one use and no DEF name, and no ROUTE, Script, prototype instance or IS reaches them or their
   contents;
+- nothing is known of them that no viewer shows, such as metadata;
 - no texture is mapped by the default coordinates, which depend on the extent of the geometry.
 
 With `loose` only single faces become one, and only where they touch: the faces of one part. Parts that look alike stay

@@ -11,6 +11,13 @@
 namespace wrlkit::bake {
 namespace {
 
+/// A light node, or a Material that shines as lamps do (docs/lighting.md, "No light at all").
+bool is_lamp(const Scene& scene, NodeId n) {
+  constexpr double least = 0.5;
+  if (scene.is(n, nodes::X3DLightNode)) return true;
+  return scene.is(n, nodes::Material) && std::ranges::max(scene.get(n, nodes::material::emissiveColor)) >= least;
+}
+
 /// By node: whether it is a light or holds one.
 std::vector<char> holds_light(const Scene& scene) {
   std::vector<std::pair<NodeId, NodeId>> held;  // by whom
@@ -20,7 +27,7 @@ std::vector<char> holds_light(const Scene& scene) {
     for_each_child(scene, n, [&](NodeId c) {
       if (c) held.emplace_back(c, n);
     });
-    if (!scene.is(n, nodes::X3DLightNode)) continue;
+    if (!is_lamp(scene, n)) continue;
     out[n.value] = 1;
     open.push_back(n);
   }

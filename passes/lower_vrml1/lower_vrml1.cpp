@@ -43,10 +43,12 @@ void Lowering::legal_names() {
   for (std::uint32_t i = 0; i < scene_.node_count(); ++i) {
     const auto old = scene_.name(NodeId{i});
     if (old.find_first_of("+.-'\\0123456789") == old.npos) continue;
-    std::string name(old.substr(0, old.find('+')));
+    const auto own = old.substr(0, old.find('+'));
+    std::string name(own);
     std::ranges::replace_if(
         name, [](char c) { return c == '.' || c == '\'' || c == '\\'; }, '_');
     if (!name.empty() && (name[0] == '-' || (name[0] >= '0' && name[0] <= '9'))) name.insert(0, 1, '_');
+    if (name != own) diag_.report(Diag::name_changed, scene_.where(NodeId{i}), own, name);
     if (name != old) scene_.set_name(NodeId{i}, name);
   }
 }

@@ -109,9 +109,18 @@ DEF Ball Shape { appearance Appearance { material Material { diffuseColor 0.5 0.
     convert(world, `${as}.glb`, '--lightmap-as', as);
     convert(directed, `ball_${as}.glb`, '--lightmap-as', as);
   }
-  const found = {moz: await apart('moz.glb', world), extras: await apart('extras.glb', world), directed: await apart('ball_extras.glb', directed), flat: await apart('ball_moz.glb', directed)};
+  const glow = path.join(folder, 'glow.wrl'), glowing = path.join(folder, 'glowing.wrl');
+  fs.writeFileSync(glow, `#VRML V2.0 utf8
+Viewpoint { position 0 0 5 }
+NavigationInfo { headlight FALSE }
+PointLight { location 2 2 3 }
+Shape { appearance Appearance { material Material { diffuseColor 0.2 0.2 0.2 emissiveColor 0.9 0.6 0.1 } } geometry Box { } }
+`);
+  wrlkit(program, 'convert', '-q', glow, glowing, '--dump', '-p', 'lightmap{quality=draft,max-size=64}');
+  convert(glowing, 'glow.glb', '--lightmap-as', 'moz');
+  const found = {glow: await apart('glow.glb', glowing), moz: await apart('moz.glb', world), extras: await apart('extras.glb', world), directed: await apart('ball_extras.glb', directed), flat: await apart('ball_moz.glb', directed)};
   // Pictures on the floor are filtered in another way.
-  assert(found.moz < 4 && found.extras < 4 && found.directed < 1, JSON.stringify(found));
+  assert(found.moz < 4 && found.extras < 4 && found.directed < 1 && found.glow < 2, JSON.stringify(found));
   assert(found.flat > 5, `without directions the highlight is missing: ${JSON.stringify(found)}`);
   return found;
 }

@@ -171,8 +171,12 @@ class X3dWriter : TextDocument {
     if (p.external || !f.has_value() || use == UrlUse::none)
       return declaration(f, p.external ? nullptr : &f.default_value);
     begin_declaration(f);
+    end_with_urls(p.where, f.default_value, use);
+  }
+
+  void end_with_urls(Span where, const Value& v, UrlUse use) {
     out_ << " value='";
-    urls(p.where, f.default_value.text_span(), use);
+    urls(where, v.text_span(), use);
     out_ << "'/>";
   }
 
@@ -384,7 +388,11 @@ class X3dWriter : TextDocument {
       if (scene_.is_extra(*v) && info(c.type).element != Element::node && c.type != FieldType::verbatim) continue;
       line() << "<fieldValue";
       attribute("name", scene_.is_extra(*v) ? v->extra->name : t.fields[v->slot].name);
-      end_with_value("fieldValue", &c);
+      const auto use = scene_.is_extra(*v) ? UrlUse::none : url_use(scene_.type_id(n), v->slot, *v);
+      if (use == UrlUse::none)
+        end_with_value("fieldValue", &c);
+      else
+        end_with_urls(scene_.where(n), c, use);
     }
   }
 

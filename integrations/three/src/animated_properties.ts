@@ -1,6 +1,6 @@
 // Animations of what is no node (KHR_animation_pointer): colours, transparency and places of pictures of materials, colour and brightness of lamps.
 import {ColorKeyframeTrack, InterpolateDiscrete, InterpolateLinear, NumberKeyframeTrack, VectorKeyframeTrack,
-  type BufferAttribute, type InterpolationModes, type KeyframeTrack, type Light, type Material, type Mesh, type MeshStandardMaterial, type Object3D} from 'three';
+  type BufferAttribute, type InterpolationModes, type KeyframeTrack, type Light, type Mesh, type MeshStandardMaterial, type Object3D} from 'three';
 import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
 
 interface Channel {
@@ -12,6 +12,8 @@ interface FileAnimation {
   channels: Channel[];
   samplers: {input: number; output: number; interpolation?: string}[];
 }
+
+interface FileMesh { primitives: {material?: number}[] }
 
 interface FileNode { extensions?: {KHR_lights_punctual?: {light: number}} }
 
@@ -73,12 +75,13 @@ const add = (all: ByNumber, number: number, object: Object3D): void => {
 
 function shownBy(gltf: GLTF, parser: GLTFParser): {materials: ByNumber; lights: ByNumber} {
   const materials: ByNumber = new Map(), lights: ByNumber = new Map();
-  const nodes = (parser.json as {nodes?: FileNode[]}).nodes ?? [];
+  const {nodes = [], meshes = []} = parser.json as {nodes?: FileNode[]; meshes?: FileMesh[]};
   gltf.scene.traverse(object => {
-    const material = (object as Mesh).material as Material | undefined;
-    const number = material && parser.associations.get(material)?.materials;
-    if (number !== undefined) add(materials, number, object);
-    const light = nodes[parser.associations.get(object)?.nodes ?? -1]?.extensions?.KHR_lights_punctual?.light;
+    // Of the primitive: lines and points have materials that three.js has made for them.
+    const of = parser.associations.get(object) as {meshes?: number; primitives?: number; nodes?: number} | undefined;
+    const number = meshes[of?.meshes ?? -1]?.primitives[of?.primitives ?? 0]?.material;
+    if (number !== undefined && (object as Mesh).material) add(materials, number, object);
+    const light = nodes[of?.nodes ?? -1]?.extensions?.KHR_lights_punctual?.light;
     const lamp = light !== undefined && [object, ...object.children].find(o => (o as Light).isLight);
     if (lamp) add(lights, light, lamp);
   });

@@ -1,7 +1,8 @@
 // Baked light that knows where it comes from: for each texel the mean direction v of its light, longer the more of it comes from there
 // (docs/lighting.md). Radiance is taken as linear over the sphere of directions, so that a surface of normal n gets 1 + 2 v.n of it, and the part
 // |v| shines as a lamp: highlights move with the viewer. The program does the same (light/render/baked.cpp).
-import {Color, MeshBasicMaterial, type Texture, type WebGLProgramParametersWithUniforms} from 'three';
+import type {Color, Texture, WebGLProgramParametersWithUniforms} from 'three';
+import {BakedMaterial} from './baked_material.js';
 
 export interface Directions {
   x: Texture;          // of v in the world, for red, green and blue light, each 0.5 + 0.5 v
@@ -36,7 +37,7 @@ const light = `
   }
   reflectedLight.indirectDiffuse *= max(1.0 + 2.0 * (vx * shade.x + vy * shade.y + vz * shade.z), 0.0) / max(1.0 + 2.0 * (vx * face.x + vy * face.y + vz * face.z), 0.1);`;
 
-export class DirectedMaterial extends MeshBasicMaterial {
+export class DirectedMaterial extends BakedMaterial {
   directions!: Directions;
 
   override copy(from: this): this {
@@ -46,6 +47,7 @@ export class DirectedMaterial extends MeshBasicMaterial {
   }
 
   override onBeforeCompile(shader: WebGLProgramParametersWithUniforms): void {
+    super.onBeforeCompile(shader);
     const {x, y, z, specular, shininess} = this.directions;
     Object.assign(shader.uniforms, {directionX: {value: x}, directionY: {value: y}, directionZ: {value: z}, specular: {value: specular}, shininess: {value: shininess}});
     shader.vertexShader = shader.vertexShader
@@ -61,9 +63,10 @@ export class DirectedMaterial extends MeshBasicMaterial {
   override customProgramCacheKey(): string { return 'directed light'; }
 }
 
-/// What directions say of materials that are otherwise alike; empty: there are none.
-export function directionsKey(material: unknown): string {
-  if (!(material instanceof DirectedMaterial)) return '';
+/// What emission and directions say of materials that are otherwise alike.
+export function bakedKey(material: unknown): string {
+  if (!(material instanceof BakedMaterial)) return '';
+  if (!(material instanceof DirectedMaterial)) return `${material.emissive.getHex()}`;
   const {x, y, z, specular, shininess} = material.directions;
-  return [x.uuid, y.uuid, z.uuid, specular.getHex(), shininess].join();
+  return [material.emissive.getHex(), x.uuid, y.uuid, z.uuid, specular.getHex(), shininess].join();
 }

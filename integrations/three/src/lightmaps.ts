@@ -1,8 +1,9 @@
 // Baked light (MOZ_lightmap, or extras.lightmap of a material): a texture of what arrives at a surface, and maybe three that say from where. Such surfaces are shown without the world's lamps,
 // whose light is in the texture already. Every part has its place on a page, which glTF says by a transform in a material of its own; here
 // the transform goes into texture coordinates, so that a page is one texture and what it lights can be drawn in one call.
-import {BufferAttribute, BufferGeometry, Color, MeshBasicMaterial, NoColorSpace, SRGBColorSpace, type ColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
+import {BufferAttribute, BufferGeometry, Color, NoColorSpace, SRGBColorSpace, type ColorSpace, type Material, type Mesh, type MeshStandardMaterial, type Texture} from 'three';
 import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
+import {BakedMaterial} from './baked_material.js';
 import {DirectedMaterial, type Directions} from './directed_light.js';
 
 const channel = 3;  // of texture coordinates
@@ -25,7 +26,7 @@ interface LightmapInfo {
 
 /// The light of a material that was baked; null when it has none.
 export function lightOf(material: Material): Texture | null {
-  return (material as MeshBasicMaterial).lightMap ?? null;
+  return (material as BakedMaterial).lightMap ?? null;
 }
 
 /// Geometries with their places on the pages; the rest of them is shared.
@@ -77,11 +78,12 @@ async function directions(material: Material, info: LightmapInfo, page: Page): P
 }
 
 /// The material with its light; `page` gives a texture of a file.
-async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: Page): Promise<MeshBasicMaterial> {
-  const {name, color, map, transparent, opacity, side, alphaTest, vertexColors, userData} = material;
+async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: Page): Promise<BakedMaterial> {
+  const {name, color, map, transparent, opacity, side, alphaTest, vertexColors, userData, emissive, emissiveIntensity} = material;
   const from = await directions(material, info, page);
-  const made = new (from ? DirectedMaterial : MeshBasicMaterial)({name, color, map, transparent, opacity, side, alphaTest, vertexColors});
+  const made = new (from ? DirectedMaterial : BakedMaterial)({name, color, map, transparent, opacity, side, alphaTest, vertexColors});
   if (from) (made as DirectedMaterial).directions = from;
+  if (emissive) made.emissive.copy(emissive).multiplyScalar(emissiveIntensity);  // an unlit material has none
   made.userData = userData;
   made.lightMap = await page(info.index, SRGBColorSpace);
   // three.js takes the map for irradiance, of which a white surface reflects 1 / pi.
@@ -96,7 +98,7 @@ function infoOf(material: Material | undefined): LightmapInfo | undefined {
 
 /// Gives the materials of a file their baked light.
 export async function addBakedLight(gltf: GLTF, parser: GLTFParser): Promise<void> {
-  const made = new Map<Material, Promise<MeshBasicMaterial>>(), pages = new Map<number, Promise<Texture | null>>(), places = new Places();
+  const made = new Map<Material, Promise<BakedMaterial>>(), pages = new Map<number, Promise<Texture | null>>(), places = new Places();
   const page: Page = (index, meaning) => {
     const known = pages.get(index) ?? loadPage(parser, index, meaning);
     pages.set(index, known);

@@ -1,7 +1,7 @@
 // A plant is thousands of small meshes. Those that stand still are drawn by material, in one call each; materials that differ in nothing
 // but their colour are one. The meshes themselves stay in the tree, unseen, for everything else: picking, boxes, selection.
 import {BatchedMesh, Color, DoubleSide, Group, Matrix4, MeshLambertMaterial, type BufferAttribute, type BufferGeometry, type Material, type Mesh, type MeshBasicMaterial, type MeshStandardMaterial, type Object3D, type Scene} from 'three';
-import {directionsKey} from 'wrlkit-three';
+import {bakedKey} from 'wrlkit-three';
 import {moves} from '../behaviour/behaviour';
 import {otherColor} from './forms';
 import type {Look, Looks} from './looks';
@@ -116,7 +116,7 @@ function materialKey(m: Material): string {
   const {map, lightMap, lightMapIntensity, roughness, metalness, flatShading, emissive, emissiveMap, normalMap, roughnessMap, metalnessMap, aoMap, color} = m as MeshStandardMaterial;
   const plain = color && !emissiveMap && !normalMap && !roughnessMap && !metalnessMap && !aoMap && !(emissive && emissive.getHex() !== 0);
   if (!plain || (type !== 'MeshStandardMaterial' && type !== 'MeshBasicMaterial')) return uuid;
-  return [type, side, alphaTest, vertexColors, map?.uuid, lightMap?.uuid, lightMapIntensity, roughness, metalness, flatShading, directionsKey(m)].join();
+  return [type, side, alphaTest, vertexColors, map?.uuid, lightMap?.uuid, lightMapIntensity, roughness, metalness, flatShading, bakedKey(m)].join();
 }
 
 function whitened(m: Material): Material {
