@@ -1,5 +1,6 @@
 // Steps over the nodes of a glTF file, each alone, on documents made by hand.
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "writers/gltf/document/dequantize.h"
 #include "writers/gltf/document/levels.h"
@@ -50,6 +51,20 @@ TEST_CASE("gltf document: what is far away is moved by the outermost translation
   CHECK(d.nodes[2].transform == none);
   CHECK(d.place(d.nodes[0]).translation[0] == -(*d.origin)[0]);
   CHECK(d.place(d.nodes[1]).translation[0] == 1.23456789 - (*d.origin)[0]);
+}
+
+TEST_CASE("gltf document: what is far away below units and axes is moved there") {
+  Document d = two_meshes();
+  d.transforms[d.nodes[1].transform].translation = {5e9, 0, 1000};
+  d.nodes[0].transform = d.add_transform({{5e9 + 3000, 0, 0}, {}, {1, 1, 1}});
+  d.nodes[2].transform = d.add_transform({{}, {0, 0, std::sqrt(0.5), std::sqrt(0.5)}, {0.001, 0.001, 0.001}});
+  d.world = {{0, 5e6, 0}, {1, 5e6 + 10, 1}};
+  move_to_origin(d);
+  REQUIRE(d.origin);
+  CHECK(d.place(d.nodes[2]).translation == Vec3{0, 0, 0});
+  for (const auto child : {0, 1})
+    for (const double v : d.place(d.nodes[child]).translation) CHECK(std::abs(v) < 1e6);
+  CHECK(d.place(d.nodes[0]).translation[0] - d.place(d.nodes[1]).translation[0] == Approx(3000));
 }
 
 TEST_CASE("gltf document: scenes are moved to the origin that is given, or stay where they are") {

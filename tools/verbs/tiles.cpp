@@ -171,7 +171,9 @@ bool check_place(const std::vector<double>& at) {
 
 }  // namespace
 
-int run_tiles(const Flags& flags) {
+int run_tiles(const Flags& given) {
+  Flags flags = given;
+  flags.load.gltf_in_metres = true;  // among files in other units
   if (flags.output == "-") {
     fmt::print(stderr, "wrlkit tiles: -o: a folder is needed; standard output is none\n");
     return usage;

@@ -163,7 +163,7 @@ class Writer {
   void make_document() {
     document_ = build_hierarchy(makers_);
     add_headlight(document_, scene_);
-    move_to_origin(document_, options_.origin);
+    move_to_origin(document_, options_.origin, [&](NodeId n) { return animations_.moves(n); });
     report_origin();
     if (options_.names == GltfOptions::Names::table)
       make_part_rows(document_, makers_, parts_);

@@ -79,9 +79,9 @@ async function directions(material: Material, info: LightmapInfo, page: Page): P
 
 /// The material with its light; `page` gives a texture of a file.
 async function baked(material: MeshStandardMaterial, info: LightmapInfo, page: Page): Promise<BakedMaterial> {
-  const {name, color, map, transparent, opacity, side, alphaTest, vertexColors, userData, emissive, emissiveIntensity} = material;
+  const {name, color, map, transparent, opacity, side, alphaTest, depthWrite, vertexColors, userData, emissive, emissiveIntensity} = material;
   const from = await directions(material, info, page);
-  const made = new (from ? DirectedMaterial : BakedMaterial)({name, color, map, transparent, opacity, side, alphaTest, vertexColors});
+  const made = new (from ? DirectedMaterial : BakedMaterial)({name, color, map, transparent, opacity, side, alphaTest, depthWrite, vertexColors});
   if (from) (made as DirectedMaterial).directions = from;
   if (emissive) made.emissive.copy(emissive).multiplyScalar(emissiveIntensity);  // an unlit material has none
   made.userData = userData;
