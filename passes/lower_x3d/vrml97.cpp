@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
-#include <span>
 #include <string>
 
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/texture_background.h"
+#include "passes/lower_x3d/vrml97_names.h"
+#include "scenegraph/access_word.h"
 #include "scenegraph/equal.h"
-#include "scenegraph/legal_name.h"
 #include "scenegraph/looks/texture_sampler.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/scopes.h"
@@ -34,9 +33,13 @@ class Vrml97Lowering {
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
     for (NodeId n : all) foreign_node(n);
-    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i) interface(ProtoId{i});
+    for (std::uint32_t i = 0; i < scene_.proto_count(); ++i)
+      interface(scene_.type(scene_.proto(ProtoId{i}).type), 0, scene_.proto(ProtoId{i}).where);
+    const auto of_scripts = builtin_nodes()[nodes::Script.value].fields.size();
+    for (NodeId n : all)
+      if (scene_.type(n).kind == NodeKind::script) interface(scene_.type(n), of_scripts, scene_.where(n));
     for_each_scope(scene_, [&](Scope& s) { routes(s); });
-    if (scene_.format != Format::vrml97 && scene_.format != Format::gltf) names(all);
+    changed_ |= give_legal_names(scene_, diag_);
     report();
     return head() || changed_;
   }
@@ -45,25 +48,6 @@ class Vrml97Lowering {
   bool builtin(NodeId n) const { return scene_.type(n).kind == NodeKind::builtin; }
   bool foreign(NodeId n) const {
     return n && builtin(n) && !(scene_.type(n).dialects & in_vrml97) && !scene_.type(n).is_own();
-  }
-
-  /// XML has names that VRML97 has not: Cube.001. Those of VRML97 files, which other readers take, stay; the reader of
-  /// glTF has seen to its own.
-  void names(std::span<const NodeId> all) {
-    std::set<std::string, std::less<>> taken;
-    for (NodeId n : all) taken.emplace(scene_.name(n));
-    std::map<std::string, std::string, std::less<>> renamed;
-    for (NodeId n : all) {
-      const std::string old(scene_.name(n));
-      if (old.empty() || is_legal_name(old)) continue;
-      auto& name = renamed[old];
-      const bool is_first = name.empty();
-      if (is_first) name = legal_name(old);
-      for (int k = 2; is_first && !taken.insert(name).second; ++k) name = legal_name(old) + "_" + std::to_string(k);
-      if (is_first) diag_.report(Diag::name_changed, scene_.where(n), old, name);
-      scene_.set_name(n, name);
-      changed_ = true;
-    }
   }
 
   void color(NodeId n) {
@@ -144,17 +128,28 @@ class Vrml97Lowering {
     changed_ = true;
   }
 
-  void interface(ProtoId p) {
-    const auto& t = scene_.type(scene_.proto(p).type);
+  static bool is_vrml97(FieldType type) {
     constexpr FieldType known[] = {
         FieldType::SFBool,   FieldType::SFInt32,  FieldType::MFInt32, FieldType::SFFloat,    FieldType::MFFloat,
         FieldType::SFTime,   FieldType::MFTime,   FieldType::SFVec2f, FieldType::MFVec2f,    FieldType::SFVec3f,
         FieldType::MFVec3f,  FieldType::SFColor,  FieldType::MFColor, FieldType::SFRotation, FieldType::MFRotation,
         FieldType::SFString, FieldType::MFString, FieldType::SFNode,  FieldType::MFNode,     FieldType::SFImage};
-    for (const auto& f : t.fields)
-      if (std::ranges::find(known, f.type) == std::end(known))
-        diag_.report(Diag::no_vrml97_value, scene_.proto(p).where, t.name,
-                     std::string(f.name) + " (" + std::string(info(f.type).name) + ")");
+    return std::ranges::find(known, type) != std::end(known);
+  }
+
+  /// The fields from that slot on are declared in the file. In VRML97 those of a Script are no exposedFields (6.40),
+  /// though its readers may take them.
+  void interface(const NodeType& t, std::size_t first, Span where) {
+    for (const auto& f : t.fields.subspan(first)) {
+      if (!is_vrml97(f.type))
+        no_value(where, t, f, info(f.type).name);
+      else if (t.kind == NodeKind::script && f.access == Access::inout && scene_.format != Format::vrml97)
+        no_value(where, t, f, access_word(f.access, Dialect::x3d));
+    }
+  }
+
+  void no_value(Span where, const NodeType& t, const FieldDef& f, std::string_view what) {
+    diag_.report(Diag::no_vrml97_value, where, t.name, std::string(f.name) + " (" + std::string(what) + ")");
   }
 
   // ---- ROUTEs ----
