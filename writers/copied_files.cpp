@@ -187,9 +187,9 @@ bool CopiedFiles::write(const std::string& from, const fs::path& to) {
     resources_.files_written().add(to.string());
     return true;
   }
-  if (was_there) diag_.report(Diag::file_replaced, {}, to.string());
-  auto out = OutputFile::open(to.string(), {.inputs = &resources_.files_read(), .written = &resources_.files_written()},
-                              diag_);
+  auto out = OutputFile::open(
+      to.string(),
+      {.inputs = &resources_.files_read(), .written = &resources_.files_written(), .report_replaced = true}, diag_);
   if (!out) return false;
   std::ifstream in(from, std::ios::binary);
   std::array<char, 64 * 1024> piece{};
