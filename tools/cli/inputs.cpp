@@ -60,9 +60,47 @@ std::string in_one_line(std::span<const std::string> faults) {
   return out;
 }
 
+/// A pattern of --include or --exclude: "old", "old/" and "./old/**" mean all that is below that folder.
+class InputPattern {
+ public:
+  explicit InputPattern(const std::string& text) : glob_(text) {
+    while (glob_.starts_with("./")) glob_.erase(0, 2);
+    const bool is_of_folder = glob_.ends_with('/');
+    while (glob_.ends_with('/')) glob_.pop_back();
+    const auto last = glob_.substr(glob_.rfind('/') + 1);
+    names_folder_ = is_of_folder || !is_glob(last);
+    names_file_ = !is_of_folder;
+  }
+
+  /// A path below the root, and as it was given.
+  bool matches(const std::string& inside, const std::string& given) {
+    const bool found = (names_file_ && (glob_matches(glob_, inside) || glob_matches(glob_, given))) ||
+                       (names_folder_ && (names_folder_of(inside) || (!is_name() && names_folder_of(given))));
+    has_matched_ |= found;
+    return found;
+  }
+  bool has_matched() const { return has_matched_; }
+
+ private:
+  bool is_name() const { return glob_.find('/') == glob_.npos; }
+
+  bool names_folder_of(const std::string& path) const {
+    for (auto folder = fs::path(path).parent_path(); folder.has_relative_path(); folder = folder.parent_path())
+      if (glob_matches(glob_, folder.string())) return true;
+    return false;
+  }
+
+  std::string glob_;
+  bool names_file_ = true, names_folder_ = false;
+  bool has_matched_ = false;
+};
+
 class Gatherer {
  public:
-  explicit Gatherer(const InputRules& rules) : rules_(rules) {
+  explicit Gatherer(const InputRules& rules)
+      : rules_(rules),
+        include_(rules.include.begin(), rules.include.end()),
+        exclude_(rules.exclude.begin(), rules.exclude.end()) {
     std::error_code none;
     if (!rules.output.empty()) output_ = fs::weakly_canonical(rules.output, none);
   }
@@ -80,6 +118,8 @@ class Gatherer {
     // Named twice, it is still one file.
     std::ranges::stable_sort(out_.files, {}, &InputFile::path);
     std::ranges::sort(out_.left_out);
+    say_unmatched("--include", rules_.include, include_);
+    say_unmatched("--exclude", rules_.exclude, exclude_);
     auto same = [](const InputFile& a, const InputFile& b) { return a.path == b.path; };
     out_.files.erase(std::unique(out_.files.begin(), out_.files.end(), same), out_.files.end());
     return std::move(out_);
@@ -255,11 +295,19 @@ class Gatherer {
     return !fault;
   }
 
-  bool wanted(const std::string& inside, const fs::path& path) const {
+  bool wanted(const std::string& inside, const fs::path& path) {
     const auto given = path.lexically_normal().string();
-    const auto matches = [&](const std::string& g) { return glob_matches(g, inside) || glob_matches(g, given); };
-    return (rules_.include.empty() || std::ranges::any_of(rules_.include, matches)) &&
-           std::ranges::none_of(rules_.exclude, matches);
+    const auto n_matching = [&](std::vector<InputPattern>& all) {  // all are asked, to know which mean nothing
+      return std::ranges::count_if(all, [&](InputPattern& p) { return p.matches(inside, given); });
+    };
+    const bool is_included = n_matching(include_) > 0 || include_.empty();
+    return n_matching(exclude_) == 0 && is_included;
+  }
+
+  void say_unmatched(std::string_view option, std::span<const std::string> given, std::span<const InputPattern> all) {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!all[i].has_matched())
+        out_.passed_over.push_back(fmt::format("{} '{}' matches none of the scene files", option, given[i]));
   }
 
   void add(const fs::path& path, std::string inside, std::uint32_t root, bool mirrored, bool asset) {
@@ -276,6 +324,7 @@ class Gatherer {
 
   static constexpr int most_depth = 64;
   const InputRules& rules_;
+  std::vector<InputPattern> include_, exclude_;
   fs::path output_;
   std::size_t n_found_ = 0;     // by the word that is looked at; --include and --exclude may take them away
   std::size_t n_unwanted_ = 0;  // those that they took away, of all words

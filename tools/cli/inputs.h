@@ -19,7 +19,7 @@ struct InputFile {
 };
 
 struct InputRules {
-  std::vector<std::string> include, exclude;  // globs, of names or of paths, as given or below the root
+  std::vector<std::string> include, exclude;  // globs of names, paths and folders, as given or below the root
   std::string base;                           // paths of lists are mirrored below this folder
   std::string output;                         // a folder that is passed over
   bool assets = false;                        // pictures and sounds as well
@@ -29,7 +29,7 @@ struct Inputs {
   std::vector<std::string> roots;        // folders; files below them may refer to all that is there
   std::vector<InputFile> files;          // by path, each once
   std::vector<std::string> left_out;     // what is missing or empty, cannot be read, leads nowhere: sentences
-  std::vector<std::string> passed_over;  // folders within folders that hold outputs: sentences
+  std::vector<std::string> passed_over;  // folders within folders that hold outputs, globs of nothing: sentences
 };
 
 /// "plant/", "plant/**/*.wrl", "@list.txt", "-" (a list on standard input), "pump.wrl". In folders and globs only what
