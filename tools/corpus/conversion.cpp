@@ -170,7 +170,7 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
         return plan.by_path.contains(
             (fs::path(folder) / fs::path(path).lexically_relative(canonical)).lexically_normal());
       };
-      extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, flags.load.allow_paths); };
+      extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, work.out, flags.load.allow_paths); };
     }
     extras.may_replace = may_replace;
     extras.take = [&](const std::string& path) {

@@ -7,6 +7,8 @@
 
 #include "base/io/allowed_files.h"
 #include "base/io/url.h"
+#include "convert/formats.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/urls.h"
 #include "scenegraph/walk.h"
 
@@ -27,36 +29,47 @@ std::string url_of(const std::string& path) {
   return out;
 }
 
+fs::path folder_of(std::string_view file) {
+  return (fs::absolute(fs::path(file)).parent_path() / "").lexically_normal();
+}
+
 class Namer {
  public:
-  Namer(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::vector<std::string>& allowed)
-      : scene_(scene), plan_(plan), job_(job), files_(allowed), main_(scene.sources->file(0)) {}
+  Namer(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::string& out,
+        const std::vector<std::string>& allowed)
+      : scene_(scene), plan_(plan), job_(job), files_(allowed), main_(scene.sources->file(0)) {
+    const auto from = folder_of(main_), here = folder_of((fs::path(out) / job.output).string());
+    if (from != here) prefix_ = from.lexically_relative(here);
+  }
 
   void name_all() {
     const UrlFields fields(scene_);
     for (NodeId n : all_nodes(scene_)) {
       const auto n_fields = static_cast<std::uint16_t>(scene_.type(n).fields.size());
       for (std::uint16_t slot = 0; slot < n_fields; ++slot) {
-        if (fields.use(scene_.type_id(n), slot) == UrlUse::none) continue;
+        const auto use = fields.use(scene_.type_id(n), slot);
+        if (use == UrlUse::none) continue;
         const Value* v = scene_.find(n, slot);
-        if (!v || v->is || v->type != FieldType::MFString || v->count == 0 || !names(v->text_span(), scene_.where(n)))
+        if (!v || v->is || v->type != FieldType::MFString || v->count == 0 ||
+            !names(v->text_span(), scene_.where(n), use))
           continue;
         scene_.set(n, scene_.make(FieldType::MFString, slot, named_));
       }
     }
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i)
-      if (auto& proto = scene_.proto(ProtoId{i}); proto.external && names(proto.urls, proto.where)) proto.urls = named_;
+      if (auto& proto = scene_.proto(ProtoId{i}); proto.external && names(proto.urls, proto.where, UrlUse::world))
+        proto.urls = named_;
   }
 
  private:
   /// Whether some of the urls get another name; then named_ has them all. Those in a scene that was put into this one
   /// are led elsewhere.
-  bool names(std::span<const std::string_view> urls, Span where) {
+  bool names(std::span<const std::string_view> urls, Span where, UrlUse use) {
     if (const auto referrer = scene_.sources->file(where.begin); !referrer.empty() && referrer != main_) return false;
     named_.assign(urls.begin(), urls.end());
     bool any = false;
     for (auto& url : named_)
-      if (const auto other = written(url); !other.empty()) {
+      if (const auto other = written(url, use); !other.empty()) {
         url = scene_.keep(other);
         any = true;
       }
@@ -64,20 +77,37 @@ class Namer {
   }
 
   /// What a url is to be; empty: it stays.
-  std::string written(std::string_view url) {
+  std::string written(std::string_view url, UrlUse use) {
     const auto fragment = url.substr(std::min(url.find('#'), url.size()));
     if (fragment.size() == url.size() || url_kind(url) != UrlKind::file) return "";
     const auto found = find_url(files_, url, main_);
-    if (found.state != AllowedFiles::found && found.state != AllowedFiles::repaired) return "";
-    const auto at = plan_.by_path.find(fs::path(found.path).lexically_normal().string());
-    if (at == plan_.by_path.end()) return "";
+    const bool is_found = found.state == AllowedFiles::found || found.state == AllowedFiles::repaired;
+    const auto at =
+        is_found ? plan_.by_path.find(fs::path(found.path).lexically_normal().string()) : plan_.by_path.end();
+    if (at == plan_.by_path.end()) return use == UrlUse::link ? led(url) : "";
     const auto& target = plan_.jobs[at->second];
     if (target.input.asset || fs::path(target.output).filename() == fs::path(target.input.inside).filename()) return "";
     // Both below one folder, so that one leads to the other without leaving it.
     return url_of(("/" / fs::path(target.output))
                       .lexically_relative(("/" / fs::path(job_.output)).parent_path())
                       .generic_string()) +
-           std::string(fragment);
+           name_written_in(target, fragment);
+  }
+
+  /// Pages, and scenes that do not come along: to where they are, as a single conversion does.
+  std::string led(std::string_view url) const {
+    const bool is_relative = url[0] != '/' && url.find(':') == url.npos;
+    if (!is_relative || prefix_.empty()) return "";
+    return (url_of(prefix_.generic_string()) / fs::path(url)).lexically_normal().generic_string();
+  }
+
+  /// A name of X3D that VRML97 does not have is another one there (passes/lower_x3d/vrml97_names.h).
+  static std::string name_written_in(const CorpusJob& target, std::string_view fragment) {
+    const auto is_x3d = [](const std::string& path) {
+      return ending_of(fs::path(path).filename().string(), scene_endings()).starts_with(".x3d");
+    };
+    if (fragment.empty() || !is_x3d(target.input.inside) || is_x3d(target.output)) return std::string(fragment);
+    return "#" + legal_name(fragment.substr(1));
   }
 
   Scene& scene_;
@@ -85,14 +115,15 @@ class Namer {
   const CorpusJob& job_;
   AllowedFiles files_;
   std::string main_;
+  fs::path prefix_;  // from the folder of the output to that of the input
   std::vector<std::string_view> named_;
 };
 
 }  // namespace
 
-void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job,
+void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::string& out,
                         const std::vector<std::string>& allowed) {
-  Namer(scene, plan, job, allowed).name_all();
+  Namer(scene, plan, job, out, allowed).name_all();
 }
 
 }  // namespace wrlkit

@@ -7,8 +7,9 @@
 namespace wrlkit {
 
 /// Lets Inline, Anchor, EXTERNPROTO and whatever else has urls name what becomes of a file, where they name the file
-/// itself; for a job whose output is text. Urls of which nothing is made in this run stay as they are. O(nodes).
-void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job,
+/// itself; for a job whose output is text, below the folder `out`. Links to what does not come along lead to where it
+/// is; other urls stay as they are. O(nodes).
+void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::string& out,
                         const std::vector<std::string>& allowed);
 
 }  // namespace wrlkit
