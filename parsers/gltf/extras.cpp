@@ -59,7 +59,8 @@ std::optional<std::uint16_t> slot_named(const NodeType& type, Json field) {
   if (const auto slot = type.find(field.key(), Dialect::vrml97)) return slot;
   const auto slot = type.find(field.key(), Dialect::x3d);
   const bool nodes = slot && info(type.fields[*slot].type).element == Element::node;
-  constexpr std::string_view of_x3d[] = {"metadata", "lineProperties", "fillProperties", "pointProperties"};
+  constexpr std::string_view of_x3d[] = {"metadata", "lineProperties", "fillProperties", "pointProperties",
+                                         "textureProperties"};
   const bool may_be_unknown =
       field["verbatim"] || (nodes && std::ranges::find(of_x3d, field.key()) == std::end(of_x3d));
   return may_be_unknown ? std::nullopt : slot;
@@ -302,7 +303,8 @@ void Extras::tags(NodeId n, Json all) {
   for (Json f : all.is_object() ? all : Json()) {
     if (f.key() == "DEF" || f.key() == "USE" || f.key() == "interface") continue;
     const bool known = c_.scene.type(n).find(f.key(), Dialect::x3d) || c_.scene.type(n).find(f.key(), Dialect::vrml97);
-    if (f.key() == "metadata" || !known) field(n, f, none_);
+    const bool says_more = f.key() == "metadata" || f.key() == "textureProperties";  // than a sampler
+    if (says_more || !known) field(n, f, none_);
   }
   owner_ = outer;
 }
@@ -334,6 +336,8 @@ void Extras::declare_fields(NodeId n, Json list) {
 
 void Extras::proto_values(NodeId n, Json list) {
   Children none_;
+  // Up to wrlkit 0.2 the list was always whole, with defaults for what was not given.
+  const bool is_whole = list.elements().size() == c_.scene.type(n).fields.size();
   for (Json row : list.elements()) {
     auto parts = row.elements();
     if (parts.size() < 4) continue;
@@ -344,8 +348,7 @@ void Extras::proto_values(NodeId n, Json list) {
       continue;
     }
     auto v = value(t.fields[*slot].type, *slot, parts[3], none_);
-    const bool plain = v && !v->is && info(v->type).element != Element::node;
-    if (v && !(plain && equal_plain(*v, t.fields[*slot].default_value))) c_.scene.set(n, *v);
+    if (v && !(is_whole && equals_default(*v, t.fields[*slot]))) c_.scene.set(n, *v);
   }
 }
 

@@ -27,7 +27,8 @@ class Extras {
   }
   /// Those alone that hold no nodes.
   void plain_fields(NodeId n, Json fields);
-  /// Those alone that only say something of the node: metadata, and fields that its type does not have.
+  /// Those alone that only say something of the node: metadata, textureProperties, and fields that its type does not
+  /// have.
   void tags(NodeId n, Json fields);
   /// Makes a node known under its name.
   void define(NodeId n);

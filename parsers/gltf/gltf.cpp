@@ -54,6 +54,9 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
                       file.is_whole() ? std::set<std::uint32_t>() : moved_nodes(file));
   const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
   scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
+  for (Json meta : vrml97(file.root()["asset"])["meta"].elements())
+    if (const auto pair = meta.elements(); pair.size() == 2)
+      scene.x3d.meta.emplace_back(pair[0].text(), pair[1].text());
   extras.protos(kept["protos"]);
   hierarchy.build();
   extras.finish(kept);

@@ -213,9 +213,12 @@ NodeId Hierarchy::kept(std::uint32_t n, Json fields, const TransformFields& plac
     auto own = shapes(n, place);
     below.insert(below.begin(), own.begin(), own.end());
   }
-  // A long text is written once, where the file describes itself: that of the first.
+  // Long texts and nodes are written once, where the file and its scene describe themselves: those of the first.
   if (type == nodes::WorldInfo && !std::exchange(has_world_info_, true))
-    extras_.plain_fields(made, vrml97(c_.file.root()["asset"])["WorldInfo"]);
+    extras_.fields(made, vrml97(c_.file.root()["asset"])["WorldInfo"]);
+  if (type == nodes::NavigationInfo && !std::exchange(has_navigation_info_, true))
+    extras_.fields(made,
+                   vrml97(c_.file.at(Table::scenes, c_.file.root()["scene"].whole().value_or(0)))["NavigationInfo"]);
   std::deque<NodeId> rest(below.begin(), below.end());
   extras_.fields(made, fields, rest);
   if (auto slot = children_slot(c_.scene.type(made)); slot && !rest.empty()) {

@@ -88,7 +88,7 @@ class Hierarchy {
   std::map<std::uint32_t, Nodes> lights_, cameras_;
   Nodes suns_;  // DirectionalLights: in VRML they light their group only
   std::size_t n_instances_ = 0;
-  bool has_world_info_ = false;
+  bool has_world_info_ = false, has_navigation_info_ = false;
 };
 
 }  // namespace wrlkit::gltf_reader

@@ -68,7 +68,8 @@ class Vrml97Lowering {
     changed_ = true;
   }
 
-  /// What TextureProperties say of the border of a picture, as far as repeatS and repeatT can.
+  /// What TextureProperties say of the border of a picture, as far as repeatS
+  /// and repeatT can.
   void borders(NodeId n) {
     if (!texture_properties(scene_, n)) return;
     namespace i = nodes::image_texture;
@@ -118,7 +119,8 @@ class Vrml97Lowering {
     }
   }
 
-  /// Children of groups: an empty Group of that name, so that USE still finds something.
+  /// Children of groups: an empty Group of that name, so that USE still finds
+  /// something.
   void foreign_node(NodeId n) {
     if (!foreign(n) || !scene_.is(n, nodes::X3DChildNode)) return;
     lose(n);
@@ -137,8 +139,8 @@ class Vrml97Lowering {
     return std::ranges::find(known, type) != std::end(known);
   }
 
-  /// The fields from that slot on are declared in the file. In VRML97 those of a Script are no exposedFields (6.40),
-  /// though its readers may take them.
+  /// The fields from that slot on are declared in the file. In VRML97 those of
+  /// a Script are no exposedFields (6.40), though its readers may take them.
   void interface(const NodeType& t, std::size_t first, Span where) {
     for (const auto& f : t.fields.subspan(first)) {
       if (!is_vrml97(f.type))
@@ -214,7 +216,8 @@ class Vrml97Lowering {
   }
 
   bool head() {
-    if (scene_.format != Format::x3d_xml && scene_.format != Format::x3d_classic) return false;
+    const bool is_x3d = scene_.format == Format::x3d_xml || scene_.format == Format::x3d_classic;
+    if (!is_x3d && scene_.x3d.meta.empty()) return false;
     auto line = [](std::string s) {
       std::ranges::replace_if(
           s, [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -223,7 +226,7 @@ class Vrml97Lowering {
     for (const auto& [name, content] : scene_.x3d.meta)
       scene_.comment += "# " + line(name) + ": " + line(content) + "\n";
     scene_.x3d = {};
-    scene_.format = Format::vrml97;
+    if (is_x3d) scene_.format = Format::vrml97;
     return true;
   }
 

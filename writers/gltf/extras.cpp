@@ -322,14 +322,16 @@ void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool 
   interface(json, t, n, depth);
 }
 
-/// With the values of a node, otherwise with the defaults of a declaration.
+/// With the values of a node, otherwise with the defaults of a declaration. An instance has only what it was given:
+/// what it was not is for its prototype to say, which may not be there.
 void Extras::interface(JsonOut& json, const NodeType& t, NodeId n, std::size_t depth) {
   json.begin_array();
   for (std::size_t i = n_table_fields(t); i < t.fields.size(); ++i) {
     const auto& f = t.fields[i];
+    const Value* given = n ? scene_.find(n, static_cast<std::uint16_t>(i)) : nullptr;
+    if (n && !given && t.kind == NodeKind::proto) continue;
     json.begin_array();
     json.values(access_word(f.access), info(f.type).name, f.name_in(Dialect::vrml97));
-    const Value* given = n ? scene_.find(n, static_cast<std::uint16_t>(i)) : nullptr;
     if (f.has_value() || (given && given->is)) value(json, given ? *given : f.default_value, depth);
     json.end_array();
   }

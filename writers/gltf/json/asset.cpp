@@ -40,6 +40,12 @@ class AssetJson : public JsonPart {
   void said_of_file() {
     if (p_.facts_only) json_.member("facts", true);
     if (!p_.scene.comment.empty()) json_.member("comment", p_.scene.comment);
+    const auto& meta = p_.scene.x3d.meta;
+    list("meta", meta.size(), [&](std::size_t i) {
+      json_.begin_array();
+      json_.values(meta[i].first, meta[i].second);
+      json_.end_array();
+    });
     if (d_.world_info) p_.extras->node(json_, d_.world_info, {});
   }
 
