@@ -156,7 +156,7 @@ NodeId PartGroups::group(Scene& scene, PartRows& table, std::uint32_t row, std::
   if (!is_new) return known->second;
   const NodeId made = known->second = scene.add(nodes::Group);
   const auto& rows = table.rows();
-  table.set_made(row);
+  table.set_made(row, made);
   const bool number = rows[row].name.starts_with('#');  // merge has called it so
   if (!rows[row].name.empty() && !number) scene.set_name(made, rows[row].name);
   if (rows[row].parent == none)
@@ -174,7 +174,7 @@ void PartGroups::put(Scene& scene, PartRows& rows, std::uint32_t row, NodeId nod
 
 void PartGroups::put_empty(Scene& scene, PartRows& rows, std::vector<NodeId>& out) {
   for (std::uint32_t row = 0; row < rows.rows().size(); ++row)
-    if (!rows.is_made(row)) group(scene, rows, row, out);
+    if (!rows.made(row)) group(scene, rows, row, out);
 }
 
 void PartGroups::finish(Scene& scene) const {

@@ -15,6 +15,17 @@ void check_required(File& file) {
     if (!knows_gltf_extension(e.text())) file.diag().report(Diag::gltf_extension, file.where(e), e.text());
 }
 
+/// What is said of nodes that are rows of the table of parts: {row: 7, Transform: {metadata: ...}}.
+void tag_parts(Json list, PartRows& rows, Extras& extras) {
+  for (Json part : list.elements()) {
+    const auto row = part["row"].whole();
+    if (!row || *row >= rows.rows().size()) continue;
+    const NodeId made = rows.made(static_cast<std::uint32_t>(*row));
+    for (Json said : part)
+      if (made && said.is_object()) extras.tags(made, said);
+  }
+}
+
 /// Title and what is kept as text.
 void add_world_info(const Context& c) {
   const File& file = c.file;
@@ -59,6 +70,7 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
       scene.x3d.meta.emplace_back(pair[0].text(), pair[1].text());
   extras.protos(kept["protos"]);
   hierarchy.build();
+  tag_parts(kept["parts"], rows, extras);
   extras.finish(kept);
   if (!file.is_own()) Animations(context, hierarchy, meshes, extras).build();  // wrlkit's own are there as ROUTEs
   if (!file.is_own()) {

@@ -401,7 +401,7 @@ void Hierarchy::own_instances(std::uint32_t n, const Vec3& origin, Nodes& out) {
     std::uint32_t row = i < ids.size() && ids[i] < rows_.rows().size() ? ids[i] : none;
     if (row != none && !rows_.is_group(row)) {
       const PartRow& part = rows_.rows()[row];
-      rows_.set_made(row);
+      rows_.set_made(row, made);
       if (!part.name.empty()) c_.scene.set_name(made, part.name);
       row = part.parent;
     } else if (i < names.size()) {

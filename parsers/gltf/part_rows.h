@@ -23,8 +23,9 @@ class PartRows {
   /// Is more than one item in the row: parts, places, other rows? A place that is alone has the name itself.
   bool is_group(std::uint32_t row);
   /// A row has become a node, or a group of nodes.
-  void set_made(std::uint32_t row) { made_[row] = 1; }
-  bool is_made(std::uint32_t row) const { return made_[row]; }
+  void set_made(std::uint32_t row, NodeId node) { made_[row] = node; }
+  /// None: nothing yet.
+  NodeId made(std::uint32_t row) const { return made_[row]; }
   /// Ids of an accessor of feature ids; empty, and a message, if they are none. `none` for what has no part.
   std::vector<std::uint32_t> ids(Json set, Json attributes);
   std::vector<std::uint32_t> ids(Json set, const std::vector<double>& values);
@@ -39,7 +40,7 @@ class PartRows {
   bool read_ = false, counted_ = false;
   std::vector<PartRow> rows_;
   std::vector<std::uint8_t> times_;  // up to 2
-  std::vector<char> made_;
+  std::vector<NodeId> made_;
 };
 
 }  // namespace wrlkit::gltf_reader
