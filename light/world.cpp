@@ -79,7 +79,7 @@ void LightWorld::make_facts(const Scene& scene, Resources* resources, Diagnostic
       has_clear_ |= f.clear;
       f.plain = m.colors == PooledMesh::absent && (!s.picture.texture || m.texcoords == PooledMesh::absent);
       V3 color = s.base({}, {}).color;
-      const bool emits = glows(s);
+      const bool emits = s.shines;
       f.emission = options_.emission * linear(emits ? color : s.emissive);
       if (!emits) f.albedo = reflectance(color);
       if (mean(f.emission) > 0 || (emits && !f.plain)) emits_ = true;
@@ -182,7 +182,7 @@ void LightWorld::make_emitters() {
     UseFacts& f = facts_[u];
     const PooledMesh& m = pool_[mesh_of_[u]];
     const Affine& frame = stage_.frames[stage_.uses[u].frame];
-    const bool unlit = glows((*surfaces_)[f.surface]);
+    const bool unlit = (*surfaces_)[f.surface].shines;
     if (m.kind != Mesh::Kind::faces || !rays_->holds(u) || !(mean(f.emission) > 0 || (unlit && !f.plain))) continue;
     if (emitters_.size() + m.n_elements > most_emitters) continue;
     f.first_emitter = static_cast<std::uint32_t>(emitters_.size());
@@ -221,7 +221,7 @@ void LightWorld::paint(const UseFacts& use, const Hit& hit, SurfacePoint& to) co
     return;
   }
   Texel t = base(use, hit);
-  const bool emits = glows((*surfaces_)[use.surface]);
+  const bool emits = (*surfaces_)[use.surface].shines;
   to.emission = emits ? options_.emission * linear(t.color) : use.emission;
   to.albedo = emits ? V3() : reflectance(t.color);
   to.alpha = std::clamp(t.alpha, 0.0, 1.0);

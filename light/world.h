@@ -31,7 +31,6 @@ struct LightOptions {
   enum class Sky : std::uint8_t { background, constant, none };
 
   double emission = 1;       // factor for the light that emissiveColor gives off
-  bool unlit_emits = false;  // a Shape without Material emits its colour; else it reflects by it
   LampFall lamps = LampFall::as_written;
   Sky sky = Sky::background;
   V3 sky_color{1};                        // constant: radiance, linear
@@ -186,8 +185,6 @@ class LightWorld {
   double area_of(std::uint32_t use) const;
   double total_area() const;
   void make_emitters();
-  /// Its own colour is light.
-  bool glows(const drawing::Surface& s) const { return s.shines || (!s.lit && options_.unlit_emits); }
   drawing::Texel base(const UseFacts& use, const Hit& hit) const;
   void paint(const UseFacts& use, const Hit& hit, SurfacePoint& to) const;
 
