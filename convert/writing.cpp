@@ -57,9 +57,7 @@ void write_packed(const Sink& to, bool gzip, auto&& f) {
 }
 
 /// The file from whose folder relative urls are to lead; empty: that of the input.
-std::string urls_from(const Writing& w) {
-  return w.sink || w.to.path == "-" || w.options.is_mirrored ? "" : w.to.path;
-}
+std::string urls_from(const Writing& w) { return w.sink || w.to.path == "-" || w.options.is_mirrored ? "" : w.to.path; }
 
 bool write_text(const Writing& w, TextWriter write) {
   auto& diag = w.context.diag;

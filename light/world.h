@@ -30,7 +30,7 @@ using drawing::Ray;
 struct LightOptions {
   enum class Sky : std::uint8_t { background, constant, none };
 
-  double emission = 1;       // factor for the light that emissiveColor gives off
+  double emission = 1;  // factor for the light that emissiveColor gives off
   LampFall lamps = LampFall::as_written;
   Sky sky = Sky::background;
   V3 sky_color{1};                        // constant: radiance, linear

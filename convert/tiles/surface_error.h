@@ -17,8 +17,8 @@ struct FullTile {
 /// The largest distance between the surface of `coarse` and that of all the tiles together, both ways. Of the full
 /// surface no point is farther than this, which is at most a fiftieth too much; of the coarse one the corners and two
 /// points of each triangle are asked, and more where they are far (uncovered.h). Faces with a colour of their own are
-/// asked for what has the same colour (color_regions.h). Infinite when one of them has no surface. Memory: `coarse`, one
-/// of the tiles at a time, and the first 200,000 triangles of all. O(n log n) in the triangles.
+/// asked for what has the same colour (color_regions.h). Infinite when one of them has no surface. Memory: `coarse`,
+/// one of the tiles at a time, and the first 200,000 triangles of all. O(n log n) in the triangles.
 double surface_error(std::span<const Piece> coarse, std::span<const FullTile> full);
 
 }  // namespace wrlkit::tiles
