@@ -3,15 +3,17 @@ import {Color, MeshBasicMaterial, type WebGLProgramParametersWithUniforms} from 
 
 export class BakedMaterial extends MeshBasicMaterial {
   emissive = new Color(0);
+  emissiveIntensity = 1;
 
   override copy(from: this): this {
     super.copy(from);
     this.emissive.copy(from.emissive);
+    this.emissiveIntensity = from.emissiveIntensity;
     return this;
   }
 
   override onBeforeCompile(shader: WebGLProgramParametersWithUniforms): void {
-    shader.uniforms['emissive'] = {value: this.emissive};
+    shader.uniforms['emissive'] = {value: new Color()};  // three.js fills it in
     shader.fragmentShader = shader.fragmentShader
       .replace('#include <common>', '#include <common>\nuniform vec3 emissive;')
       .replace('#include <opaque_fragment>', 'outgoingLight += emissive;\n#include <opaque_fragment>');
