@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/analysis/native_node.h"
+#include "scenegraph/legal_name.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
 
@@ -89,6 +90,8 @@ const Prototypes::Library& Prototypes::library(const std::shared_ptr<const Scene
     lib.by_name.emplace(name(scene_.proto(p)), p);
     if (!lib.first && !scene_.proto(p).external) lib.first = p;
   }
+  const auto named = lib.by_name;
+  for (const auto& [name, p] : named) lib.by_name.emplace(vrml97_name(name), p);
   return lib;
 }
 
@@ -122,10 +125,18 @@ std::vector<NodeId> Prototypes::defaults(const Proto& proto) const {
   return out;
 }
 
+/// What a file of VRML97 that was made from X3D calls it, where it refers to X3D still.
+std::string_view Prototypes::vrml97_name(std::string_view name) {
+  return is_legal_name(name) ? name : scene_.keep(legal_name(name));
+}
+
 const FieldDef* Prototypes::field(ProtoId body, std::string_view name) {
   auto [known, is_new] = interfaces_.try_emplace(body.value);
-  if (is_new)
-    for (const auto& f : scene_.type(scene_.proto(body).type).fields) known->second.emplace(f.name, &f);
+  if (is_new) {
+    const auto& fields = scene_.type(scene_.proto(body).type).fields;
+    for (const auto& f : fields) known->second.emplace(f.name, &f);
+    for (const auto& f : fields) known->second.emplace(vrml97_name(f.name), &f);
+  }
   auto i = known->second.find(name);
   return i == known->second.end() ? nullptr : i->second;
 }

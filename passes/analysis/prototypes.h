@@ -49,6 +49,7 @@ class Prototypes {
   void look_at(NodeId);
   std::vector<NodeId> defaults(const Proto&) const;
   std::string_view name(const Proto& p) const { return scene_.type(p.type).name; }
+  std::string_view vrml97_name(std::string_view);
 
   Scene& scene_;
   PassContext& ctx_;
