@@ -54,9 +54,9 @@ class LegalNames {
       : scene_(scene), all_(all_nodes(scene)), urls_(scene), nodes_(diag), types_(diag), fields_(diag) {}
 
   bool give() {
+    if (!has_others()) return false;
     collect();
-    // The reader of glTF has seen to the names of nodes.
-    if (scene_.format != Format::gltf)
+    if (!is_gltf_)
       for (const NodeId n : all_) name(n);
     for (const ProtoId p : declared_protos(scene_)) declaration(scene_.proto(p), p);
     for_each_scope(scene_, [&](Scope& s) {
@@ -70,6 +70,27 @@ class LegalNames {
   }
 
  private:
+  /// Most scenes have none.
+  bool has_others() const {
+    bool any = false;
+    const auto look_at = [&](std::string_view name) { any |= !name.empty() && !is_legal_name(name); };
+    for (const NodeType& t : scene_.own_types()) {
+      if (t.kind != NodeKind::script) look_at(t.name);
+      for (const FieldDef& f : t.fields) look_at(f.name);
+    }
+    for_each_route(scene_, [&](const Route& r) {
+      look_at(r.event_out);
+      look_at(r.event_in);
+    });
+    for (const NodeId n : all_) {
+      if (is_gltf_) break;
+      look_at(scene_.name(n));
+      for (const Value& v : scene_.fields(n))
+        if (scene_.is_extra(v)) look_at(v.extra->name);
+    }
+    return any;
+  }
+
   void collect() {
     for (const NodeId n : all_) nodes_.take(scene_.name(n));
     for (const NodeType& row : builtin_nodes())
@@ -157,7 +178,7 @@ class LegalNames {
 
   bool extra(NodeId n, Value& v) {
     Value content = v.extra->value;
-    const auto name = field_name(v.extra->name, scene_.where(n));
+    const auto name = is_gltf_ ? v.extra->name : field_name(v.extra->name, scene_.where(n));
     const bool is_changed = content.is && is(n, content);
     if (name == v.extra->name && !is_changed) return false;
     v = scene_.make_extra(name, content);
@@ -185,6 +206,7 @@ class LegalNames {
   }
 
   Scene& scene_;
+  const bool is_gltf_ = scene_.format == Format::gltf;  // whose reader has seen to nodes, and fields of no type
   const std::vector<NodeId> all_;
   const UrlFields urls_;
   Renaming nodes_, types_, fields_;
