@@ -120,6 +120,24 @@ Value head(FieldType type, std::uint16_t slot, std::size_t count) {
   return v;
 }
 
+/// What the numbers of another scene are in the one that it becomes part of, which had so many of each.
+struct Renumbered {
+  std::uint32_t n_nodes, n_types, n_protos;
+
+  NodeId node(NodeId n) const { return n ? NodeId{n.value + n_nodes} : n; }
+  TypeId type(TypeId t) const { return t.value < builtin_nodes().size() ? t : TypeId{t.value + n_types}; }
+  ProtoId proto(ProtoId p) const { return ProtoId{p.value + n_protos}; }
+  Scope scope(const Scope& s) const {
+    Scope o;
+    for (auto n : s.roots) o.roots.push_back(node(n));
+    for (auto r : s.routes) o.routes.push_back({node(r.from), node(r.to), r.event_out, r.event_in});
+    for (auto p : s.protos) o.protos.push_back(proto(p));
+    for (auto i : s.imports) o.imports.push_back({node(i.inline_node), i.exported, node(i.node)});
+    for (auto e : s.exports) o.exports.push_back({node(e.node), e.name});
+    return o;
+  }
+};
+
 }  // namespace
 
 Value Scene::make(FieldType t, std::uint16_t slot, std::span<const double> a) {
@@ -228,13 +246,10 @@ ProtoId Scene::add_proto(Proto p) {
 
 Scope Scene::import(const Scene& other) {
   if (&other == this) return import(Scene(other));
-  const auto n0 = static_cast<std::uint32_t>(nodes_.size());
   const auto f0 = static_cast<std::uint32_t>(fields_.size());
   const auto name0 = static_cast<std::uint32_t>(names_.size());
-  const auto t0 = static_cast<std::uint32_t>(types_.size()), p0 = static_cast<std::uint32_t>(protos_.size());
-  const auto n_builtin = static_cast<std::uint32_t>(builtin_nodes().size());
-  auto node = [&](NodeId n) { return n ? NodeId{n.value + n0} : n; };
-  auto type = [&](TypeId t) { return t.value < n_builtin ? t : TypeId{t.value + t0}; };
+  const Renumbered now{static_cast<std::uint32_t>(nodes_.size()), static_cast<std::uint32_t>(types_.size()),
+                       static_cast<std::uint32_t>(protos_.size())};
   auto value = [&](auto& self, Value v) -> Value {
     if (v.slot == Value::extra_slot && v.extra && info(v.extra->value.type).element == Element::node &&
         !v.extra->value.is)
@@ -245,22 +260,13 @@ Scope Scene::import(const Scene& other) {
                         }()));
     if (v.slot == Value::extra_slot || v.is || info(v.type).element != Element::node) return v;
     if (!info(v.type).multiple) {
-      v.node = node(v.node);
+      v.node = now.node(v.node);
       return v;
     }
     NodeId* to = arena().allocate<NodeId>(v.count);
-    for (std::size_t i = 0; i < v.count; ++i) to[i] = node(v.nodes[i]);
+    for (std::size_t i = 0; i < v.count; ++i) to[i] = now.node(v.nodes[i]);
     v.nodes = to;
     return v;
-  };
-  auto scope = [&](const Scope& s) {
-    Scope o;
-    for (auto n : s.roots) o.roots.push_back(node(n));
-    for (auto r : s.routes) o.routes.push_back({node(r.from), node(r.to), r.event_out, r.event_in});
-    for (auto p : s.protos) o.protos.push_back(ProtoId{p.value + p0});
-    for (auto i : s.imports) o.imports.push_back({node(i.inline_node), i.exported, node(i.node)});
-    for (auto e : s.exports) o.exports.push_back({node(e.node), e.name});
-    return o;
   };
 
   const std::uint32_t shift = sources->add_all(other.sources);
@@ -271,7 +277,7 @@ Scope Scene::import(const Scene& other) {
   arenas_.share_all(other.arenas_);
   names_.insert(names_.end(), other.names_.begin() + 1, other.names_.end());
   for (auto n : other.nodes_) {
-    n.type = type(n.type);
+    n.type = now.type(n.type);
     if (n.name) n.name += name0 - 1;
     n.first_field += f0;
     n.offset = place(n.offset);
@@ -279,18 +285,18 @@ Scope Scene::import(const Scene& other) {
   }
   for (auto& v : other.fields_) fields_.push_back(value(value, v));
   for (auto t : other.types_) {
-    if (t.proto) t.proto.value += p0;
+    if (t.proto) t.proto = now.proto(t.proto);
     std::vector<FieldDef> fields(t.fields.begin(), t.fields.end());
     for (auto& f : fields) f.default_value = value(value, f.default_value);
     add_type(t, fields);
   }
   for (auto p : other.protos_) {
-    p.type = type(p.type);
-    p.body = scope(p.body);
+    p.type = now.type(p.type);
+    p.body = now.scope(p.body);
     p.where.begin = place(p.where.begin);
     protos_.push_back(std::move(p));
   }
-  return scope(other.main);
+  return now.scope(other.main);
 }
 
 }  // namespace wrlkit

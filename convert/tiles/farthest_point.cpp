@@ -86,8 +86,8 @@ void FarthestPoint::add(const Part& all) {
   if (!std::isfinite(farthest_) || !is_usable(all.corners)) return;
   open_.assign(1, all);
   // The largest parts first: when there are too many, those that are left are small.
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    const Part part = open_[i];
+  for (std::size_t next = 0; next < open_.size();) {
+    const Part part = open_[next++];
     if (is_known(part)) continue;
     if (open_.size() < most_parts)
       cut(part);

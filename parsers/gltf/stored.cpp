@@ -12,7 +12,7 @@ namespace wrlkit {
 namespace gltf_reader {
 namespace {
 
-constexpr std::uint64_t triangles = 4, triangle_fan = 6;  // values of mode; a strip is between them
+constexpr std::uint64_t mode_triangles = 4, mode_fan = 6;  // values of mode; a strip is between them
 
 /// An index without a message: who shows the mesh has reported it.
 std::uint32_t index_of(const File& file, Table table, Json reference) {
@@ -58,13 +58,13 @@ std::uint64_t stored_triangles(std::string_view gltf) {
   std::uint64_t sum = 0;
   for (const auto mesh : shown_meshes(file))
     for (const Json p : file.at(Table::meshes, mesh)["primitives"].elements()) {
-      const auto mode = p["mode"] ? p["mode"].whole().value_or(0) : triangles;
+      const auto mode = p["mode"] ? p["mode"].whole().value_or(0) : mode_triangles;
       const auto indices = index_of(file, Table::accessors, p["indices"]);
       const auto points = index_of(file, Table::accessors, p["attributes"]["POSITION"]);
-      if (mode < triangles || mode > triangle_fan || !known.insert({indices, points, mode}).second) continue;
+      if (mode < mode_triangles || mode > mode_fan || !known.insert({indices, points, mode}).second) continue;
       const Json accessor = file.at(Table::accessors, indices == none ? points : indices);
       const auto corners = accessor["count"].whole().value_or(0);
-      sum += mode == triangles ? corners / 3 : std::max<std::uint64_t>(corners, 2) - 2;
+      sum += mode == mode_triangles ? corners / 3 : std::max<std::uint64_t>(corners, 2) - 2;
     }
   return sum;
 }

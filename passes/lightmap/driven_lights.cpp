@@ -37,8 +37,8 @@ std::vector<char> holds_light(const Scene& scene) {
   while (!open.empty()) {
     const NodeId n = open.back();
     open.pop_back();
-    for (const auto& [_, holder] : std::ranges::equal_range(held, n.value, {}, child))
-      if (!std::exchange(out[holder.value], 1)) open.push_back(holder);
+    for (auto at = std::ranges::lower_bound(held, n.value, {}, child); at != held.end() && at->first == n; ++at)
+      if (!std::exchange(out[at->second.value], 1)) open.push_back(at->second);
   }
   return out;
 }
