@@ -266,6 +266,19 @@ void define_mesh(py::class_<PyMesh>& type) {
 
 using WorldClass = py::class_<PyWorld, std::shared_ptr<PyWorld>>;
 
+py::str repr_of_world(PyWorld& w) {
+  const auto name = fs::path(w.path()).filename().string();
+  auto text =
+      "<World" + (name.empty() ? "" : " " + name + ":") + " " + std::to_string(w.scene().node_count()) + " nodes";
+  for (const auto s : {Severity::error, Severity::warning, Severity::lost}) {
+    const auto messages = w.messages();
+    const auto n = std::ranges::count(messages, s, &MessageView::severity);
+    if (n > 0)
+      text += ", " + std::to_string(n) + " " + std::string(to_string(s)) + (n > 1 && s != Severity::lost ? "s" : "");
+  }
+  return shown_text(text + ">");
+}
+
 void define_world(WorldClass& type) {
   type.def_property("roots", &roots_of, &set_roots, "Its root nodes, as a list; write the list to change it.")
       .def("nodes", &nodes_of, py::arg("type") = Text(),
@@ -313,18 +326,7 @@ void define_world(WorldClass& type) {
       .def_property_readonly("messages", &PyWorld::messages,
                              "Messages about it so far, each once, as a list of Message: of each kind the first three "
                              "of every call.");
-  type.def("__repr__", [](PyWorld& w) {
-    const auto name = fs::path(w.path()).filename().string();
-    auto text =
-        "<World" + (name.empty() ? "" : " " + name + ":") + " " + std::to_string(w.scene().node_count()) + " nodes";
-    for (const auto s : {Severity::error, Severity::warning, Severity::lost}) {
-      const auto messages = w.messages();
-      const auto n = std::ranges::count(messages, s, &MessageView::severity);
-      if (n > 0)
-        text += ", " + std::to_string(n) + " " + std::string(to_string(s)) + (n > 1 && s != Severity::lost ? "s" : "");
-    }
-    return shown_text(text + ">");
-  });
+  type.def("__repr__", &repr_of_world);
   not_copied(type, {"__copy__", "__deepcopy__", "__reduce_ex__"},
              "a World cannot be copied or pickled; load its file again, or give load_bytes what to_bytes gives");
 }

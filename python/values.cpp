@@ -152,69 +152,99 @@ void require_valid(const PyNode& node, const FieldDef& field, const Value& value
     if (fault.id != Diag::encoding_repaired) throw value_error(fault.text());
 }
 
-Value from_python(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value) {
-  const auto& t = info(field.type);
-  Scene& scene = node.scene();
-  const auto wrong = [&] {
-    return type_error(full_name(node, field.name) + (t.name[0] == 'S' || t.name[0] == 'M' ? " is an " : " is a ") +
-                      std::string(t.name) + ": " + expected(t, field.type) + ", not " + shown_value(value));
-  };
-  try {
-    switch (t.element) {
-      case Element::number: {
-        if (t.arity == 1 && !t.multiple)
-          return scene.make(field.type, slot, without_rounding(field.range, value.cast<double>()));
-        const auto given_array = py::array::ensure(value);
-        if (!given_array || !may_hold_numbers(given_array)) throw wrong();
-        const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given_array);
-        if (!array || !fits(array, t.arity) || (!t.multiple && array.size() != t.arity)) throw wrong();
-        const std::span<const double> given(array.data(), static_cast<std::size_t>(array.size()));
-        if (!field.range.bounded()) return scene.make(field.type, slot, given);
-        std::vector<double> rounded(given.size());
-        std::ranges::transform(given, rounded.begin(), [&](double v) { return without_rounding(field.range, v); });
-        return scene.make(field.type, slot, rounded);
+/// A value of a field, made of one of Python; TypeError for what does not fit.
+class FromPython {
+ public:
+  FromPython(const PyNode& node, const FieldDef& field, std::uint16_t slot, const py::object& value)
+      : node_(node), field_(field), slot_(slot), value_(value), type_(info(field.type)), scene_(node.scene()) {}
+
+  Value made() const {
+    try {
+      switch (type_.element) {
+        case Element::number:
+          return number();
+        case Element::integer:
+          return integer();
+        case Element::image:
+          return image();
+        case Element::text:
+          return text();
+        case Element::node:
+          return nodes();
       }
-      case Element::integer: {
-        if (field.type == FieldType::SFInt32) return scene.make(field.type, slot, value.cast<std::int32_t>());
-        if (field.type == FieldType::SFBool) {
-          const auto is_true = truth(value);
-          return is_true ? scene.make(field.type, slot, *is_true) : throw wrong();
-        }
-        const auto numbers = whole_numbers(value);
-        const auto is_truth = [](std::int32_t v) { return v == 0 || v == 1; };
-        if (!numbers || (field.type == FieldType::MFBool && !std::ranges::all_of(*numbers, is_truth))) throw wrong();
-        return scene.make(field.type, slot, *numbers);
-      }
-      case Element::image: {
-        const auto numbers = t.multiple ? integers_of_pictures(value) : integers_of_picture(value);
-        return numbers ? scene.make(field.type, slot, *numbers) : throw wrong();
-      }
-      case Element::text: {
-        if (!t.multiple) return scene.make(field.type, slot, bytes_of(value));
-        std::vector<std::string> texts;
-        if (py::isinstance<py::str>(value))
-          texts.push_back(bytes_of(value));
-        else if (py::isinstance<py::iterable>(value))
-          for (auto item : value) texts.push_back(bytes_of(item));
-        else
-          throw wrong();
-        const std::vector<std::string_view> kept(texts.begin(), texts.end());
-        return scene.make(field.type, slot, kept);
-      }
-      case Element::node: {
-        if (!t.multiple) return scene.make(field.type, slot, node_of(node, value));
-        std::vector<NodeId> ids;
-        if (py::isinstance<PyNode>(value)) return scene.make(field.type, slot, std::vector{node_of(node, value)});
-        if (!py::isinstance<py::iterable>(value) || py::isinstance<py::str>(value)) throw wrong();
-        for (auto item : value) ids.push_back(item.is_none() ? throw wrong() : node_of(node, item));
-        return scene.make(field.type, slot, ids);
-      }
+    } catch (const py::cast_error&) {
+      throw wrong();
     }
-  } catch (const py::cast_error&) {
     throw wrong();
   }
-  throw wrong();
-}
+
+ private:
+  Raised wrong() const {
+    const bool is_spelt = type_.name[0] == 'S' || type_.name[0] == 'M';
+    return type_error(full_name(node_, field_.name) + (is_spelt ? " is an " : " is a ") + std::string(type_.name) +
+                      ": " + expected(type_, field_.type) + ", not " + shown_value(value_));
+  }
+
+  Value number() const {
+    if (type_.arity == 1 && !type_.multiple)
+      return scene_.make(field_.type, slot_, without_rounding(field_.range, value_.cast<double>()));
+    const auto given_array = py::array::ensure(value_);
+    if (!given_array || !may_hold_numbers(given_array)) throw wrong();
+    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(given_array);
+    if (!array || !fits(array, type_.arity) || (!type_.multiple && array.size() != type_.arity)) throw wrong();
+    const std::span<const double> given(array.data(), static_cast<std::size_t>(array.size()));
+    if (!field_.range.bounded()) return scene_.make(field_.type, slot_, given);
+    std::vector<double> rounded(given.size());
+    std::ranges::transform(given, rounded.begin(), [&](double v) { return without_rounding(field_.range, v); });
+    return scene_.make(field_.type, slot_, rounded);
+  }
+
+  Value integer() const {
+    if (field_.type == FieldType::SFInt32) return scene_.make(field_.type, slot_, value_.cast<std::int32_t>());
+    if (field_.type == FieldType::SFBool) {
+      const auto is_true = truth(value_);
+      return is_true ? scene_.make(field_.type, slot_, *is_true) : throw wrong();
+    }
+    const auto numbers = whole_numbers(value_);
+    const auto is_truth = [](std::int32_t v) { return v == 0 || v == 1; };
+    if (!numbers || (field_.type == FieldType::MFBool && !std::ranges::all_of(*numbers, is_truth))) throw wrong();
+    return scene_.make(field_.type, slot_, *numbers);
+  }
+
+  Value image() const {
+    const auto numbers = type_.multiple ? integers_of_pictures(value_) : integers_of_picture(value_);
+    return numbers ? scene_.make(field_.type, slot_, *numbers) : throw wrong();
+  }
+
+  Value text() const {
+    if (!type_.multiple) return scene_.make(field_.type, slot_, bytes_of(value_));
+    std::vector<std::string> texts;
+    if (py::isinstance<py::str>(value_))
+      texts.push_back(bytes_of(value_));
+    else if (py::isinstance<py::iterable>(value_))
+      for (auto item : value_) texts.push_back(bytes_of(item));
+    else
+      throw wrong();
+    const std::vector<std::string_view> kept(texts.begin(), texts.end());
+    return scene_.make(field_.type, slot_, kept);
+  }
+
+  Value nodes() const {
+    if (!type_.multiple) return scene_.make(field_.type, slot_, node_of(node_, value_));
+    if (py::isinstance<PyNode>(value_)) return scene_.make(field_.type, slot_, std::vector{node_of(node_, value_)});
+    if (!py::isinstance<py::iterable>(value_) || py::isinstance<py::str>(value_)) throw wrong();
+    std::vector<NodeId> ids;
+    for (auto item : value_) ids.push_back(item.is_none() ? throw wrong() : node_of(node_, item));
+    return scene_.make(field_.type, slot_, ids);
+  }
+
+  const PyNode& node_;
+  const FieldDef& field_;
+  std::uint16_t slot_;
+  const py::object& value_;
+  const FieldTypeInfo& type_;
+  Scene& scene_;
+};
 
 std::uint16_t slot_of(const PyNode& node, const std::string& name) {
   auto slot = node.type().find(name, Dialect::vrml97);
@@ -250,7 +280,7 @@ py::object get_field(const PyNode& node, const Text& name) {
 void set_field(const PyNode& node, const Text& name, const py::object& value) {
   const auto slot = slot_of(node, name.bytes);
   const auto& field = node.type().fields[slot];
-  const Value made = from_python(node, field, slot, value);
+  const Value made = FromPython(node, field, slot, value).made();
   // What it holds may be wrong already: files are.
   if (info(field.type).element != Element::node && equal_plain(node.scene().value(node.id, slot), made)) return;
   require_valid(node, field, new_part(node, made));
