@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "base/image/image_codecs.h"
@@ -81,6 +82,16 @@ void look(const Flags& flags, std::size_t most) {
   }
 }
 
+/// A page there that is no report: the name was not chosen by the user, so it may be somebody's.
+bool is_of_others(const std::string& path) {
+  constexpr std::size_t most = 1024;
+  std::ifstream page(path, std::ios::binary);
+  std::string head(most, '\0');
+  page.read(head.data(), most);
+  head.resize(static_cast<std::size_t>(page.gcount()));
+  return !head.empty() && head.find(": wrlkit</title>") == head.npos;
+}
+
 bool write(const CorpusReport& report, const std::string& path) {
   return write_text_file(path, path.ends_with(".csv")    ? report_csv(report)
                                : path.ends_with(".json") ? report_json(report) + '\n'
@@ -114,7 +125,13 @@ int run_corpus_report(const Flags& flags) {
                          counted(report.damaged, "line"), report.damaged == 1 ? "is" : "are"));
   if ((flags.json || !flags.report.empty()) && !give_document(flags, report_json(report))) return nothing;
   auto paths = flags.outputs;
-  if (paths.empty() && !flags.json) paths = {(fs::path(out) / "report.html").string()};
+  if (paths.empty() && !flags.json) {
+    paths = {(fs::path(out) / "report.html").string()};
+    if (is_of_others(paths[0])) {
+      complain("corpus report", "'" + paths[0] + "' is not a report of wrlkit and stays; -o names another file");
+      return usage;
+    }
+  }
   for (const auto& path : paths) {
     if (!write(report, path)) return nothing;
     if (!flags.quiet && path != "-") fmt::print(stderr, "{}\n", path);

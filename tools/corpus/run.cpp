@@ -304,13 +304,19 @@ class Run {
   }
 
   bool open_joblog() {
-    const bool is_new = !fs::exists(flags_.joblog);
+    constexpr std::string_view heading = "Seq\tHost\tStarttime\tJobRuntime\tSend\tReceive\tExitval\tSignal\tCommand";
+    std::string first;
+    const bool is_new = !std::getline(std::ifstream(flags_.joblog), first);
+    if (!is_new && first != heading) {
+      complain("corpus run", "--joblog: '" + flags_.joblog + "' is not a job log; choose another name");
+      return false;
+    }
     joblog_.open(flags_.joblog, std::ios::app);
     if (!joblog_) {
       fmt::print(stderr, "wrlkit: '{}' cannot be written\n", flags_.joblog);
       return false;
     }
-    if (is_new) joblog_ << "Seq\tHost\tStarttime\tJobRuntime\tSend\tReceive\tExitval\tSignal\tCommand\n";
+    if (is_new) joblog_ << heading << '\n';
     return true;
   }
 
