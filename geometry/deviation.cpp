@@ -207,8 +207,8 @@ class Way {
       for (std::size_t k = 0; k < 3; ++k) out.push_back({from_.corners[t * std::size_t{3} + k], t});
     const auto key = [&](const Corner& c) { return std::pair(c.position, label_of(c)); };
     std::ranges::sort(out, {}, key);
-    const auto rest = std::ranges::unique(out, {}, key);
-    out.erase(rest.begin(), rest.end());
+    const auto same = [&](const Corner& a, const Corner& b) { return key(a) == key(b); };
+    out.erase(std::unique(out.begin(), out.end(), same), out.end());
     return out;
   }
 
