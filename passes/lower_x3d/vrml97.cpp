@@ -177,9 +177,11 @@ class Vrml97Lowering {
     if (!slot) return name;
     const auto& f = t.fields[*slot];
     if (!(f.dialects & in_vrml97)) return {};
-    if (f.vrml97_name.empty() || scene_.dialect() == Dialect::vrml97) return name;
+    const auto at = name.find(f.name);
+    const bool has_its_name = at == name.npos || f.vrml97_name.empty() || scene_.dialect() == Dialect::vrml97;
+    if (has_its_name) return name;
     std::string s(name);
-    s.replace(s.find(f.name), f.name.size(), f.vrml97_name);
+    s.replace(at, f.name.size(), f.vrml97_name);
     return scene_.keep(s);
   }
 
