@@ -35,7 +35,7 @@ bool read_color(std::string_view s, Vec3& out) {
 // A lobe of cos^(128 rate), which has half of its brightness at some angle; so has the ramp from beamWidth to
 // cutOffAngle.
 double beam_width(double rate, double cut_off) {
-  if (rate <= 0) return cut_off;
+  if (rate <= 0 || cut_off <= 0) return cut_off;
   const double half = std::acos(std::pow(0.5, 1 / (128 * rate)));
   return std::clamp(2 * half - cut_off, 0.0, cut_off);
 }

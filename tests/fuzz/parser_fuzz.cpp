@@ -30,12 +30,22 @@ bool has_ambiguous_proto(const Scene& scene) {
   return std::ranges::any_of(all_nodes(scene), another);
 }
 
-/// Fields say whether a node is one of VRML 1.0 or of X3D where both have one of that name. Where nothing in it could
-/// be kept, they say no longer.
+/// Fields that only one of them has say whether a node is one of VRML 1.0 or of X3D where both have one of that name.
+/// Where none of these could be kept, nothing says it any longer.
 bool has_ambiguous_type(const Scene& scene) {
   return std::ranges::any_of(all_nodes(scene), [&](NodeId n) {
-    const auto name = scene.type(n).name;
-    return scene.fields(n).empty() && find_builtin(name, Dialect::vrml1) && find_builtin(name, Dialect::x3d);
+    const TypeId vrml1 = find_builtin(scene.type(n).name, Dialect::vrml1);
+    const TypeId x3d = find_builtin(scene.type(n).name, Dialect::x3d);
+    if (!vrml1 || !x3d) return false;
+    auto is_of_both = [&](const Value& v) {
+      if (scene.is_extra(v)) return true;
+      const FieldDef& field = scene.type(n).fields[v.slot];
+      if (!v.is && equals_default(v, field)) return true;  // and not written
+      const auto name = field.name;
+      return builtin_nodes()[vrml1.value].find(name, Dialect::vrml1) &&
+             builtin_nodes()[x3d.value].find(name, Dialect::x3d);
+    };
+    return std::ranges::all_of(scene.fields(n), is_of_both);
   });
 }
 
