@@ -5,6 +5,8 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/text/backslash.h"
+#include "base/text/vrml_value.h"
 #include "scenegraph/access_word.h"
 #include "scenegraph/browser_nodes.h"
 #include "scenegraph/equal.h"
@@ -51,6 +53,26 @@ std::vector<std::string_view> words_of(std::string_view s) {
 std::pair<std::string_view, std::string_view> split(std::string_view s) {
   auto point = s.rfind('.');
   return point == s.npos ? std::pair{s, std::string_view{}} : std::pair{s.substr(0, point), s.substr(point + 1)};
+}
+
+bool is_field_name(std::string_view name) {
+  const auto words = words_of(name);
+  if (words.size() == 1) return is_read_as_name(name);
+  FieldType type{};
+  return words.size() == 3 && find_access(words[0]) && find_field_type(words[1], type) && is_read_as_name(words[2]);
+}
+
+/// Words of VRML 1.0 are written without quotes: what is none of them would become something else.
+bool is_written_safely(FieldType type, std::string_view text) {
+  if (type == FieldType::SFBitMask) return text.empty() || is_vrml_value("(" + std::string(text) + ")");
+  return type != FieldType::SFEnum || (!text.empty() && is_read_as_name(text) && text.find('(') == text.npos);
+}
+
+/// The type that a value of an unknown field is written with: {"SFInt32": 3}.
+std::optional<FieldType> type_said(Json j) {
+  FieldType type{};
+  if (!j.is_object() || j.begin() == j.end() || !find_field_type((*j.begin()).key(), type)) return {};
+  return type == FieldType::verbatim || info(type).element == Element::node ? std::nullopt : std::optional(type);
 }
 
 /// Fields are written by their names in VRML97. Those that a world of VRML97 has and its types do not are written as
@@ -100,7 +122,7 @@ std::vector<FieldDef> Extras::interface(Json list, std::size_t first_slot) {
     FieldDef f{};
     auto access = parts.size() >= 3 ? find_access(parts[0].text()) : std::nullopt;
     if (!access || !is_read_as_name(parts[2].text()) || !find_field_type(parts[1].text(), f.type) ||
-        out.size() >= 60'000) {
+        f.type == FieldType::verbatim || out.size() >= 60'000) {
       bad(row, "a field of an interface");
       continue;
     }
@@ -188,20 +210,20 @@ std::optional<Value> Extras::numbers(FieldType t, std::uint16_t slot, Json j) {
 }
 
 std::optional<Value> Extras::value(FieldType t, std::uint16_t slot, Json j, Children& children) {
-  if (j["IS"].is_text() || j["verbatim"].is_text()) {
-    const bool is = j["IS"].is_text();
-    Value v = c_.scene.make(FieldType::verbatim, slot, j[is ? "IS" : "verbatim"].text());
-    if (is) {
-      v.type = t;
-      v.is = true;
-    }
+  if (j["IS"].is_text()) {
+    if (!is_read_as_name(j["IS"].text())) return std::nullopt;
+    Value v = c_.scene.make(FieldType::verbatim, slot, j["IS"].text());
+    v.type = t;
+    v.is = true;
     return v;
   }
   switch (info(t).element) {
     case Element::node:
       return nodes(t, slot, j, children);
     case Element::text: {
-      if (!info(t).multiple) return j.is_text() ? std::optional(c_.scene.make(t, slot, j.text())) : std::nullopt;
+      if (!info(t).multiple)
+        return j.is_text() && is_written_safely(t, j.text()) ? std::optional(c_.scene.make(t, slot, j.text()))
+                                                             : std::nullopt;
       if (!j.is_array()) return std::nullopt;
       std::vector<std::string_view> all;
       for (Json e : j) all.push_back(e.text());
@@ -261,10 +283,21 @@ NodeId Extras::reference(Json j, Children& children) {
 
 /// The value of a field that no table knows: text, or nodes.
 std::optional<Value> Extras::unknown(Json j, Children& children) {
-  if (j["verbatim"].is_text() || j["IS"].is_text()) return value(FieldType::verbatim, 0, j, children);
+  if (j["IS"].is_text()) return value(FieldType::verbatim, 0, j, children);
+  if (const auto text = j["verbatim"]; text.is_text()) {
+    const bool is_safe = text.text().empty() || is_vrml_value(text.text());
+    return is_safe ? std::optional(c_.scene.make(FieldType::verbatim, 0, text.text())) : std::nullopt;
+  }
+  if (const auto type = type_said(j)) return value(*type, 0, *j.begin(), children);
+  const auto elements = j.elements();
+  const auto all = [&](auto test) { return !elements.empty() && std::ranges::all_of(elements, test); };
+  if (all([](Json e) { return e.is_text(); })) return value(FieldType::MFString, 0, j, children);
+  if (all([](Json e) { return e.is_number(); })) return value(FieldType::MFFloat, 0, j, children);
   if (j.is_array()) return nodes(FieldType::MFNode, 0, j, children);
   if (j.is_object()) return nodes(FieldType::SFNode, 0, j, children);
-  if (j.is_text()) return c_.scene.make(FieldType::verbatim, 0, j.text());
+  if (j.is_text()) return value(FieldType::SFString, 0, j, children);
+  if (j.is_boolean()) return value(FieldType::SFBool, 0, j, children);
+  if (j.is_number()) return value(FieldType::SFFloat, 0, j, children);
   const bool is_child = j && !j.is_number() && !j.is_boolean();  // null
   return is_child && !children.empty() ? std::optional(nodes(FieldType::SFNode, 0, j, children)) : std::nullopt;
 }
@@ -287,7 +320,7 @@ void Extras::fields(NodeId n, Json all, Children& children) {
 
 void Extras::field(NodeId n, Json f, Children& children) {
   auto slot = slot_named(c_.scene.type(n), f);
-  if (!slot && !std::ranges::all_of(words_of(f.key()), is_read_as_name)) return bad(f, "a field");
+  if (!slot && !is_field_name(f.key())) return bad(f, "a field");
   if (!slot) owner_ = {};  // what has no slot cannot be filled in later
   auto v = slot ? value(c_.scene.type(n).fields[*slot].type, *slot, f, children) : unknown(f, children);
   owner_ = n;

@@ -39,6 +39,19 @@ void add_world_info(const Context& c) {
   c.scene.main.roots.insert(c.scene.main.roots.begin(), n);
 }
 
+/// Of comment lines, each with its '#': anything else would be read as nodes where they are written.
+std::string comment_lines(std::string_view kept) {
+  std::string out;
+  while (!kept.empty()) {
+    const auto end = std::min(kept.find_first_of("\r\n"), kept.size());
+    const auto line = kept.substr(0, end);
+    if (!line.empty() && !line.starts_with('#')) out += "# ";
+    (out += line) += '\n';
+    kept.remove_prefix(std::min(end + 1, kept.size()));
+  }
+  return out;
+}
+
 }  // namespace
 
 bool looks_like_gltf(std::string_view bytes) {
@@ -64,7 +77,7 @@ void parse(std::string_view bytes, std::uint32_t base, const std::string& path, 
   Hierarchy hierarchy(context, extras, meshes, rows, limits,
                       file.is_whole() ? std::set<std::uint32_t>() : moved_nodes(file));
   const Json kept = vrml97(file.at(Table::scenes, file.root()["scene"].whole().value_or(0)));
-  scene.comment = std::string(vrml97(file.root()["asset"])["comment"].text());
+  scene.comment = comment_lines(vrml97(file.root()["asset"])["comment"].text());
   for (Json meta : vrml97(file.root()["asset"])["meta"].elements())
     if (const auto pair = meta.elements(); pair.size() == 2)
       scene.x3d.meta.emplace_back(pair[0].text(), pair[1].text());

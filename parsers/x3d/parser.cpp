@@ -5,6 +5,7 @@
 #include "base/text/backslash.h"
 #include "base/text/blanks.h"
 #include "base/text/letter_case.h"
+#include "base/text/vrml_value.h"
 #include "parsers/x3d/grammar.h"
 #include "parsers/x3d/page.h"
 #include "scenegraph/container_field.h"
@@ -305,7 +306,7 @@ std::string as_vrml(std::string_view s) {
   if (s.empty()) return {};
   const bool plain = s.starts_with('"') || s.starts_with('[') ||
                      (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
-  return plain ? std::string(s) : in_quotes(s);
+  return plain && is_vrml_value(s) ? std::string(s) : in_quotes(s);
 }
 
 int version_number(std::string_view s) {

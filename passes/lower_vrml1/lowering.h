@@ -81,6 +81,7 @@ class Lowering {
   NodeId known_base(NodeId unknown);
   void visit_other(NodeId n, State&, Frame&);
   void visit_unknown(NodeId n, State&, Frame&);
+  void quote_words(NodeId n);
   void keep_fields(NodeId n, NodeId group);
   void visit_vrml97(NodeId n, const State&, Frame&);
   void visit_instance(NodeId n, const State&);

@@ -3,6 +3,8 @@
 #include <iterator>
 #include <utility>
 
+#include "base/text/bit_mask.h"
+#include "base/text/vrml_value.h"
 #include "passes/lower_vrml1/lowering.h"
 #include "scenegraph/any_node.h"
 #include "scenegraph/metadata.h"
@@ -128,12 +130,34 @@ void Lowering::visit_unknown(NodeId n, State& s, Frame& frame) {
   std::vector<NodeId> nodes;
   for (const Value& v : scene_.fields(n))
     for (NodeId c : scene_.content(v).node_span()) nodes.push_back(c);
-  if (nodes.empty()) return frame.add(n);
+  if (nodes.empty()) {
+    quote_words(n);
+    return frame.add(n);
+  }
   const Frame inner = contents(nodes, s);
   const NodeId g = group(scene_, inner, scene_.where(n), scene_.name(n));
   if (!g) return;
   keep_fields(n, g);
   frame.add(g);
+}
+
+/// Words without quotes, and sets of them, are values of VRML 1.0 only: strings say the same.
+void Lowering::quote_words(NodeId n) {
+  auto fields = scene_.copy_of_fields(n);
+  for (Value& v : fields) {
+    if (!scene_.is_extra(v) || v.extra->value.is) continue;
+    const auto name = v.extra->name;
+    const Value& said = v.extra->value;
+    const bool is_word =
+        said.type == FieldType::SFEnum ||
+        (said.type == FieldType::verbatim && is_vrml_value(said.text()) && !is_vrml97_value(said.text()));
+    if (is_word) v = scene_.make_extra(name, scene_.make(FieldType::SFString, Value::extra_slot, said.text()));
+    if (said.type != FieldType::SFBitMask) continue;
+    std::vector<std::string_view> words;
+    for_each_bit(said.text(), [&](std::string_view word) { words.push_back(word); });
+    v = scene_.make_extra(name, scene_.make(FieldType::MFString, Value::extra_slot, words));
+  }
+  scene_.set_fields(n, fields);
 }
 
 /// Fields of a node that nobody knows are said of the group that it becomes.

@@ -283,12 +283,13 @@ void Extras::tag_fields(JsonOut& json, NodeId n) {
   for (const Value& v : scene_.fields(n)) {
     if (!is_tag(scene_, n, v)) continue;
     json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
-    value(json, scene_.content(v), 0);
+    scene_.is_extra(v) ? unknown(json, v.extra->value, 0) : value(json, v, 0);
   }
 }
 
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
+  if (scene_.is_extra(v)) return unknown(json, v.extra->value, 0);
   const bool one_node = !is_tag(scene_, n, v) && v.type == FieldType::SFNode;
   if (!one_node || scene_.type(v.node).kind == NodeKind::unknown) return value(json, scene_.content(v), 0);
   json.object([&] {
@@ -314,8 +315,10 @@ void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool 
   for (const Value& v : scene_.fields(n)) {
     if (!speaks(n, v, said) || (only_short && is_long(scene_.content(v)))) continue;
     json.key(scene_.is_extra(v) ? v.extra->name : t.fields[v.slot].name_in(Dialect::vrml97));
-    if (scene_.is_extra(v) || !urls(json, scene_.where(n), scene_.type_id(n), v.slot, v))
-      value(json, scene_.content(v), depth);
+    if (scene_.is_extra(v))
+      unknown(json, v.extra->value, depth);
+    else if (!urls(json, scene_.where(n), scene_.type_id(n), v.slot, v))
+      value(json, v, depth);
   }
   if (only_short || n_table_fields(t) == t.fields.size()) return;
   json.key("interface");
@@ -402,6 +405,17 @@ void Extras::import(JsonOut& json, const Import& i) const {
 
 void Extras::export_(JsonOut& json, const Export& e) const {
   json.value(fmt::format("{} AS {}", name(e.node), e.name));
+}
+
+void Extras::unknown(JsonOut& json, const Value& v, std::size_t depth) {
+  const bool is_list = v.type == FieldType::MFString && v.count > 0;
+  const bool tells_type = is_list || v.type == FieldType::SFString || v.type == FieldType::SFBool;
+  if (v.is || v.type == FieldType::verbatim || tells_type || info(v.type).element == Element::node)
+    return value(json, v, depth);
+  json.object([&] {
+    json.key(info(v.type).name);
+    value(json, v, depth);
+  });
 }
 
 void Extras::value(JsonOut& json, const Value& v, std::size_t depth) {

@@ -128,6 +128,8 @@ class Extras {
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);
   void interface(JsonOut&, const NodeType&, NodeId, std::size_t depth);
   void proto(JsonOut&, const Proto&, std::optional<std::size_t> in);
+  /// The value of a field that no table has, with its type where JSON does not tell it: {"SFInt32": 3}.
+  void unknown(JsonOut&, const Value&, std::size_t depth);
   void value(JsonOut&, const Value&, std::size_t depth);
   void reference(JsonOut&, NodeId, std::size_t depth);
   void content(JsonOut&, NodeId, std::size_t depth);

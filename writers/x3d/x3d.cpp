@@ -6,6 +6,7 @@
 #include "base/text/blanks.h"
 #include "base/text/xml_characters.h"
 #include "base/text/xml_text.h"
+#include "base/text/vrml_value.h"
 #include "geometry/forms/form_faces.h"
 #include "scenegraph/access_word.h"
 #include "scenegraph/container_field.h"
@@ -313,7 +314,14 @@ class X3dWriter : TextDocument {
                           name == "class" || name == "id" || name == "style";
     if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim || is_written_before(n, v))
       return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
-    attribute(name, as_xml(c.text()));
+    attribute(name, as_xml(scene_.format == Format::x3d_xml ? c.text() : without_brackets(c.text())));
+  }
+
+  /// XML has no brackets around lists.
+  static std::string_view without_brackets(std::string_view s) {
+    if (!s.starts_with('[') || !s.ends_with(']')) return s;
+    const auto list = s.substr(1, s.size() - 2);
+    return list == R"("")" || is_bare_list_of_strings(list) ? list : s;
   }
 
   /// A value whose type nobody knows, as VRML writes it: a single string needs no quotes here, and truth is written
@@ -321,6 +329,7 @@ class X3dWriter : TextDocument {
   static std::string_view as_xml(std::string_view s) {
     if (s == "TRUE") return "true";
     if (s == "FALSE") return "false";
+    if (s == R"("")") return {};
     const bool string = s.size() > 2 && s.front() == '"' && s.find_first_of("\"\\", 1) == s.size() - 1;
     return string && s.find_first_of("[{\"", 1) == s.size() - 1 && s[1] > ' ' && s[s.size() - 2] > ' ' &&
                    !number_like(s.substr(1, s.size() - 2))
