@@ -30,8 +30,8 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
     if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
     if (is_checked && to.path != "-") report_missing_parts(scene, *ctx.resources, ctx.diag);
     if (is_checked && to.path == "-") report_missing_pictures(scene, *ctx.resources, ctx.diag);
-    if (hooks.last) hooks.last(scene);
   }
+  if (hooks.last) hooks.last(scene);
   if (is_checked && (to.path != "-" || to.format->meshes)) report_missing_media(scene, *ctx.resources, ctx.diag);
   return to.format->write({scene, meshes, ctx, options, to, sink, saved, makers});
 }

@@ -18,12 +18,17 @@ bool is_relative(std::string_view url) {
   return !url.empty() && url[0] != '/' && url[0] != '#' && url.find(':') == url.npos;
 }
 
-/// From the folder of the output to that of the file in which urls stand; empty when they are the same.
-fs::path prefix_of(const Scene& scene, Span where, std::string_view file) {
+struct Folders {
+  fs::path from;  // that of the file in which urls stand
+  fs::path here;  // that of the output
+};
+
+/// Nothing where urls stay: the folders are the same, or there is none.
+std::optional<Folders> folders_of(const Scene& scene, Span where, std::string_view file) {
   const auto read = scene.sources->file(where.begin), main = scene.sources->file(0);
   if (read.empty() || read == "-" || scene.sources->is_in_memory(where.begin)) return {};
-  const fs::path from = folder_of(read), here = folder_of(file.empty() ? main : file);
-  return from == here ? fs::path() : from.lexically_relative(here);
+  Folders folders{folder_of(read), folder_of(file.empty() ? main : file)};
+  return folders.from == folders.here ? std::nullopt : std::optional(std::move(folders));
 }
 
 }  // namespace
@@ -39,12 +44,12 @@ std::vector<std::string> led_urls(const Scene& scene, Span where, std::span<cons
     }
     return led;
   }
-  const fs::path prefix = prefix_of(scene, where, leads.file);
+  const auto folders = folders_of(scene, where, leads.file);
   for (auto& url : led) {
     if (auto copy = leads.copy ? leads.copy(url, where, use) : std::nullopt)
       url = std::move(*copy);
-    else if (is_relative(url) && !prefix.empty())
-      url = (prefix / url).lexically_normal().generic_string();
+    else if (is_relative(url) && folders)
+      url = (folders->from / url).lexically_normal().lexically_relative(folders->here).generic_string();
   }
   return led;
 }

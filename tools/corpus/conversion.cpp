@@ -164,13 +164,17 @@ void do_job(const CorpusWork& work, const CorpusPlan& plan, const CorpusJob& job
     flags.load.allow_paths = allowed_folders(work, plan, job);
     flags.save.own_folder = true;
     ConversionExtras extras;
+    const auto named = work.text ? NamedUrls::all : NamedUrls::links;
+    if (job.input.mirrored || !work.text)
+      extras.last = [&](Scene& scene) {
+        name_written_files(scene, plan, job, work.out, flags.load.allow_paths, named);
+      };
     if (work.text && job.input.mirrored) {
       const auto& folder = plan.roots[job.input.root];
       flags.save.is_mirrored = [&, canonical = fs::weakly_canonical(folder, none)](const std::string& path) {
         return plan.by_path.contains(
             (fs::path(folder) / fs::path(path).lexically_relative(canonical)).lexically_normal());
       };
-      extras.last = [&](Scene& scene) { name_written_files(scene, plan, job, work.out, flags.load.allow_paths); };
     }
     extras.may_replace = may_replace;
     extras.take = [&](const std::string& path) {

@@ -36,8 +36,14 @@ fs::path folder_of(std::string_view file) {
 class Namer {
  public:
   Namer(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::string& out,
-        const std::vector<std::string>& allowed)
-      : scene_(scene), plan_(plan), job_(job), files_(allowed), main_(scene.sources->file(0)) {
+        const std::vector<std::string>& allowed, NamedUrls named)
+      : scene_(scene),
+        plan_(plan),
+        job_(job),
+        out_(fs::absolute(out)),
+        files_(allowed),
+        main_(scene.sources->file(0)),
+        only_(named) {
     const auto from = folder_of(main_), here = folder_of((fs::path(out) / job.output).string());
     if (from != here) prefix_ = from.lexically_relative(here);
   }
@@ -62,10 +68,12 @@ class Namer {
   }
 
  private:
-  /// Whether some of the urls get another name; then named_ has them all. Those in a scene that was put into this one
-  /// are led elsewhere.
+  /// Whether some of the urls get another name; then named_ has them all. In text, those in a scene that was put into
+  /// this one are led elsewhere.
   bool names(std::span<const std::string_view> urls, Span where, UrlUse use) {
-    if (const auto referrer = scene_.sources->file(where.begin); !referrer.empty() && referrer != main_) return false;
+    const auto file = scene_.sources->file(where.begin);
+    referrer_ = file.empty() ? main_ : file;
+    if (only_ == NamedUrls::links ? use != UrlUse::link : referrer_ != main_) return false;
     named_.assign(urls.begin(), urls.end());
     bool any = false;
     for (auto& url : named_)
@@ -80,13 +88,16 @@ class Namer {
   std::string written(std::string_view url, UrlUse use) {
     const auto fragment = url.substr(std::min(url.find('#'), url.size()));
     if (fragment.size() == url.size() || url_kind(url) != UrlKind::file) return "";
-    const auto found = find_url(files_, url, main_);
+    const auto found = find_url(files_, url, referrer_);
     const bool is_found = found.state == AllowedFiles::found || found.state == AllowedFiles::repaired;
     const auto at =
         is_found ? plan_.by_path.find(fs::path(found.path).lexically_normal().string()) : plan_.by_path.end();
+    if (only_ == NamedUrls::links)
+      return at == plan_.by_path.end() ? "" : from_input(plan_.jobs[at->second]) + std::string(fragment);
     if (at == plan_.by_path.end()) return use == UrlUse::link ? led(url) : "";
     const auto& target = plan_.jobs[at->second];
-    if (target.input.asset || fs::path(target.output).filename() == fs::path(target.input.inside).filename()) return "";
+    const bool has_its_name = fs::path(target.output).filename() == fs::path(target.input.inside).filename();
+    if (is_relative(url) && (target.input.asset || has_its_name)) return "";
     // Both below one folder, so that one leads to the other without leaving it.
     return url_of(("/" / fs::path(target.output))
                       .lexically_relative(("/" / fs::path(job_.output)).parent_path())
@@ -94,10 +105,16 @@ class Namer {
            name_written_in(target, fragment);
   }
 
+  static bool is_relative(std::string_view url) { return url[0] != '/' && url[0] != '\\' && url.find(':') == url.npos; }
+
+  /// As seen from the file that has the link, whose urls the writer leads to the folder of the output.
+  std::string from_input(const CorpusJob& target) const {
+    return url_of((out_ / target.output).lexically_normal().lexically_relative(folder_of(referrer_)).generic_string());
+  }
+
   /// Pages, and scenes that do not come along: to where they are, as a single conversion does.
   std::string led(std::string_view url) const {
-    const bool is_relative = url[0] != '/' && url.find(':') == url.npos;
-    if (!is_relative || prefix_.empty()) return "";
+    if (!is_relative(url) || prefix_.empty()) return "";
     return (url_of(prefix_.generic_string()) / fs::path(url)).lexically_normal().generic_string();
   }
 
@@ -113,8 +130,10 @@ class Namer {
   Scene& scene_;
   const CorpusPlan& plan_;
   const CorpusJob& job_;
+  fs::path out_;
   AllowedFiles files_;
-  std::string main_;
+  std::string main_, referrer_;
+  NamedUrls only_;
   fs::path prefix_;  // from the folder of the output to that of the input
   std::vector<std::string_view> named_;
 };
@@ -122,8 +141,8 @@ class Namer {
 }  // namespace
 
 void name_written_files(Scene& scene, const CorpusPlan& plan, const CorpusJob& job, const std::string& out,
-                        const std::vector<std::string>& allowed) {
-  Namer(scene, plan, job, out, allowed).name_all();
+                        const std::vector<std::string>& allowed, NamedUrls named) {
+  Namer(scene, plan, job, out, allowed, named).name_all();
 }
 
 }  // namespace wrlkit
