@@ -1,5 +1,6 @@
 #include "convert/save.h"
 
+#include "convert/emptied.h"
 #include "convert/kept_made.h"
 #include "convert/missing_files.h"
 #include "convert/writing.h"
@@ -27,7 +28,9 @@ bool run_and_write(Document& document, Pipeline& pipeline, const Output& to, con
     meshes = pipeline.run_lazily(scene, ctx, hooks.pipeline, &makers);
     if (!meshes) return false;
   } else {
+    const EmptiedScene emptied(scene);
     if (!pipeline.run(scene, ctx, hooks.pipeline)) return false;
+    emptied.report(scene, ctx.diag);
     if (is_checked && to.path != "-") report_missing_parts(scene, *ctx.resources, ctx.diag);
     if (is_checked && to.path == "-") report_missing_pictures(scene, *ctx.resources, ctx.diag);
   }

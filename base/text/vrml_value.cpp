@@ -48,10 +48,16 @@ class ValueText {
     if (static_cast<unsigned char>(c) <= ' ' || c == ',') return take(1);
     count_ += depth_ == 0 && c != '#' && c != ']';
     if (c == '"') return string();
-    if (c == '#') return take(std::min(rest_.find_first_of("\r\n"), rest_.size()));
+    if (c == '#') return comment();
     if (c == '[') return ++depth_, take(1);
     if (c == ']') return depth_-- > 0 && take(1);
     return word();
+  }
+
+  /// One at the very end would swallow what is written behind it.
+  bool comment() {
+    const auto end = rest_.find_first_of("\r\n");
+    return end != rest_.npos && take(end);
   }
 
   bool string() {
@@ -85,9 +91,8 @@ class ValueText {
 
 bool is_vrml97_value(std::string_view s) {
   s = trim(s);
-  const auto last_line = s.substr(s.find_last_of("\r\n") + 1);
   ValueText values(s);
-  return values.all_good() && values.count() > 0 && !last_line.starts_with('#');
+  return values.all_good() && values.count() > 0;
 }
 
 bool is_vrml_value(std::string_view s) {

@@ -5,7 +5,6 @@
 #include <unordered_set>
 #include <utility>
 
-#include "base/text/backslash.h"
 #include "base/text/vrml_value.h"
 #include "scenegraph/access_word.h"
 #include "scenegraph/browser_nodes.h"
