@@ -76,8 +76,9 @@ void FaceCleaner::drop_degenerate(const Surface& s) {
       corners_.resize(first);
     }
   }
+  counts.without_area = s.n_faces() - (face_begin_.size() - 1);
   if (corners_.empty()) return;
-  counts.degenerate_faces += s.n_faces() - (face_begin_.size() - 1);
+  counts.degenerate_faces += counts.without_area;
   counts.repeated_corners += n_before - corners_.size();
   if (corners_.size() < points.size()) keep(s, corners_, face_begin_);
 }

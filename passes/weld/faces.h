@@ -10,6 +10,7 @@ namespace wrlkit {
 struct FaceCleaner {
   struct Counts {
     std::size_t degenerate_faces = 0, repeated_corners = 0, duplicate_faces = 0, duplicate_triangles = 0;
+    std::size_t without_area = 0;  // of all that there were, dropped or not
   };
 
   /// Drops faces without area, and corners at the point of the one before; nothing where no face has an area. Linear.

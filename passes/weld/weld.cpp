@@ -137,7 +137,12 @@ bool Welding::repair() {
 bool Welding::drop_faces() {
   auto& cleaner = scratch_.cleaner;
   cleaner.counts = {};
+  const std::size_t n_faces = surface_.n_faces();
   if (options_.degenerate) cleaner.drop_degenerate(surface_);
+  const bool is_given = !options_.tolerance.automatic && options_.tolerance.length > 0;
+  if (is_given && 2 * cleaner.counts.without_area > n_faces)
+    job_.ctx.diag.report(Diag::weld_collapsed, job_.scene.where(job_.geometry), job_.scene.type(job_.geometry).name,
+                         shortest_text(options_.tolerance.length), cleaner.counts.without_area, n_faces);
   if (options_.duplicates) cleaner.drop_duplicates(surface_, !mesh_.solid);
   count(job_, "weld.degenerate-faces", cleaner.counts.degenerate_faces);
   count(job_, "weld.repeated-corners", cleaner.counts.repeated_corners);

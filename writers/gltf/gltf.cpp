@@ -35,6 +35,15 @@ bool report_too_large(std::uint64_t bytes, Diagnostics& diag) {
   return false;
 }
 
+constexpr double worth_saying = 10'000;  // metres
+
+/// From the nearest point of a box.
+double distance_to(const Box& box, const Vec3& p) {
+  Vec3 nearest = p;
+  for (std::size_t i = 0; i < 3; ++i) nearest[i] = std::min(std::max(p[i], box.low[i]), box.high[i]);
+  return length(p - nearest);
+}
+
 std::string four_bytes(std::uint64_t v) {
   std::string s;
   for (int i = 0; i < 4; ++i) s += static_cast<char>(v >> 8 * i & 0xff);
@@ -173,10 +182,19 @@ class Writer {
   }
 
   void report_origin() {
-    if (!document_.origin || !options_.says_origin || options_.origin.kind != GltfOrigin::Kind::automatic) return;
+    if (!document_.origin || !options_.says_origin) return;
+    if (options_.origin.kind == GltfOrigin::Kind::given) return report_given_origin();
     const Vec3 moved = Vec3{} - *document_.origin;
     const auto digits = [](double v) { return fmt::format("{:.15g}", v); };  // all of them: --origin takes them
     diag_.report(Diag::moved_to_origin, {}, digits(moved[0]), digits(moved[1]), digits(moved[2]));
+  }
+
+  /// Numbers of another unit, or with another axis up, lead away from the scene.
+  void report_given_origin() {
+    const double far = distance_to(document_.world, *document_.origin), before = distance_to(document_.world, Vec3{});
+    if (!document_.world.empty() && far > std::max(before, worth_saying))
+      diag_.report(Diag::origin_far, {}, options_.origin.print(), fmt::format("{:.6g}", far),
+                   fmt::format("{:.6g}", before));
   }
 
   /// What is left to do with the nodes once it is known how vertices are stored.

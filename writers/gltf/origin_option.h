@@ -30,11 +30,14 @@ struct GltfOrigin {
   }
 
  private:
+  static constexpr double farthest = 1e12;  // metres: light takes an hour
+
   bool read_place(std::string_view text) {
     for (std::size_t i = 0; i < 3; ++i) {
       const auto comma = text.find(',');
       const auto number = text.substr(0, comma);
-      if ((comma == text.npos) != (i == 2) || !read_number(number, at[i]) || !std::isfinite(at[i])) return false;
+      if ((comma == text.npos) != (i == 2) || !read_number(number, at[i]) || !(std::abs(at[i]) <= farthest))
+        return false;
       text.remove_prefix(i == 2 ? text.size() : comma + 1);
     }
     return true;
