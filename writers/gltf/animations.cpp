@@ -115,9 +115,32 @@ void Animations::add_transforms(const std::function<Vec3(std::uint32_t)>& offset
   }
 }
 
+/// One property of glTF, as a colour with its opacity, that two clocks would move, each a part of it.
+void Animations::report_clocks_at_odds(const Property& p) const {
+  const auto clocks = [&](const Motion::Field& field) {
+    std::vector<NodeId> out;
+    for (const auto& d : motion_.drives(NodeId{field.first}, field.second)) out.push_back(d.clock);
+    return out;
+  };
+  const Motion::Field* first = nullptr;
+  for (const Motion::Field& field : p.inputs) {
+    const auto of_field = clocks(field);
+    if (of_field.empty()) continue;
+    if (!first) first = &field;
+    if (of_field == clocks(*first)) continue;
+    const NodeId n{field.first};
+    const auto name = [&](const Motion::Field& f) {
+      return std::string(scene_.type(n).fields[f.second].name_in(scene_.dialect()));
+    };
+    diag_.report(Diag::no_gltf_value, scene_.where(n), scene_.type(n).name,
+                 name(field) + ", animated by another TimeSensor than " + name(*first) + ",");
+  }
+}
+
 void Animations::store(Store& store, const std::function<Vec3(std::uint32_t)>& offset) {
   add_transforms(offset);
   std::map<std::uint32_t, std::set<std::uint32_t>> of_clock;
+  for (const Property& p : properties_) report_clocks_at_odds(p);
   for (std::uint32_t p = 0; p < properties_.size(); ++p)
     for (const auto& [node, slot] : properties_[p].inputs)
       for (const auto& d : motion_.drives(NodeId{node}, slot)) of_clock[d.clock.value].insert(p);

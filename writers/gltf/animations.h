@@ -100,6 +100,7 @@ class Animations {
     double at;
     std::vector<double> value;
   };
+  void report_clocks_at_odds(const Property&) const;
   void add_transforms(const std::function<Vec3(std::uint32_t)>& offset);
   void add_channel(Written&, std::uint32_t property, double cycle, Store&);
   std::vector<Frame> frames(const Property&, std::span<const Curve* const>) const;

@@ -215,7 +215,7 @@ class Writer {
   bool build(auto&& put) {
     make_document();
     add_morphs();
-    add_pointers(animations_, scene_, materials_, document_);
+    add_pointers(animations_, scene_, materials_, document_, diag_);
     animations_.store(store_, [&](std::uint32_t node) { return offset_of(document_, scene_, node); });
     if (store_.full()) return report_too_large(store_.bytes(), diag_);
     static const std::vector<Picture> no_pictures;

@@ -186,6 +186,7 @@ void Materials::look_at_light(Look& l) {
   l.light_uv = read_texture_transform(scene_, l.light_transform).map();
   if (lightmaps_ == As::occlusion) l.occlusion = none;
   if (lightmaps_ != As::emissive) return;
+  for (std::string_view field : {l.base_field, std::string_view("emissiveColor")}) outshine(l, field);
   l.base = black;
   l.emissive = white;
   l.shows_color = false;
@@ -197,6 +198,10 @@ void Materials::look_at_light(Look& l) {
 bool Materials::moves(const Look& l, std::string_view field) const {
   auto slot = l.material && !field.empty() ? scene_.type(l.material).find(field, Dialect::x3d) : std::nullopt;
   return slot && motion_.moves(l.material, *slot);
+}
+
+void Materials::outshine(const Look& l, std::string_view field) {
+  if (moves(l, field)) outshone_.insert({l.material.value, *scene_.type(l.material).find(field, Dialect::x3d)});
 }
 
 bool Materials::moves(const Look& l) const {

@@ -22,6 +22,7 @@
 // never replaces it. Pictures for normals, occlusion, emission, metal and roughness are those of glTF; that they may
 // have texture coordinates of their own, by name, is kept in extras. alphaMode and alphaCutoff are glTF's as well.
 #pragma once
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -77,6 +78,8 @@ class Materials {
     std::vector<std::string_view> mapped;  // pictures that it moves, by their path in the material
   };
   const std::vector<Moved>& moved() const { return moved_; }
+  /// Fields of materials that are moved, but not shown: a lightmap stands in place of the colours.
+  const std::set<Motion::Field>& outshone() const { return outshone_; }
 
   /// The JSON of each material.
   const std::vector<std::string>& materials() const { return materials_; }
@@ -94,6 +97,7 @@ class Materials {
   static std::vector<std::string_view> mapped(const Look&);
   Look look(NodeId appearance, SurfaceKind);
   void look_at_light(Look&);
+  void outshine(const Look&, std::string_view field);
   bool replaced_by_light(const Look&) const;
   std::string json(const Look&);
   void read_material(Look&);
@@ -121,6 +125,7 @@ class Materials {
   std::unordered_map<std::string, std::uint32_t> by_json_;
   std::vector<std::string> materials_;
   std::vector<Moved> moved_;
+  std::set<Motion::Field> outshone_;
   bool unlit_ = false, texture_transform_ = false, moz_lightmap_ = false;
 };
 

@@ -132,7 +132,13 @@ class Pointers {
 
 }  // namespace
 
-void add_pointers(Animations& animations, const Scene& scene, const Materials& materials, const Document& document) {
+void add_pointers(Animations& animations, const Scene& scene, const Materials& materials, const Document& document,
+                  Diagnostics& diag) {
+  for (const auto& [node, slot] : materials.outshone()) {
+    const auto& type = scene.type(NodeId{node});
+    diag.report(Diag::no_gltf_value, scene.where(NodeId{node}), type.name,
+                std::string(type.fields[slot].name_in(scene.dialect())) + ", animated behind a lightmap,");
+  }
   Pointers p(animations, scene);
   for (const auto& m : materials.moved()) p.material(m);
   for (std::size_t i = 0; i < document.lights.size(); ++i)

@@ -7,6 +7,6 @@
 
 namespace wrlkit::gltf {
 
-void add_pointers(Animations&, const Scene&, const Materials&, const Document&);
+void add_pointers(Animations&, const Scene&, const Materials&, const Document&, Diagnostics&);
 
 }  // namespace wrlkit::gltf
