@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "base/text/blanks.h"
+#include "base/text/vrml_value.h"
 #include "base/text/xml_characters.h"
 #include "base/text/xml_text.h"
-#include "base/text/vrml_value.h"
 #include "geometry/forms/form_faces.h"
 #include "scenegraph/access_word.h"
 #include "scenegraph/container_field.h"
