@@ -37,29 +37,29 @@ bool has_face(const Scene& scene, NodeId n) {
   return false;
 }
 
-enum class Answer : std::uint8_t { no, perhaps, yes };
+enum class Drawn : std::uint8_t { no, perhaps, yes };
 
-Answer draws(const Scene& scene, NodeId n) {
-  if (scene.is(n, nodes::IndexedFaceSet)) return has_face(scene, n) ? Answer::yes : Answer::no;
+Drawn drawn_by(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::IndexedFaceSet)) return has_face(scene, n) ? Drawn::yes : Drawn::no;
   if (scene.is(n, nodes::Box) || scene.is(n, nodes::Cone) || scene.is(n, nodes::Cylinder) || scene.is(n, nodes::Sphere))
-    return Answer::yes;
+    return Drawn::yes;
   const bool is_shape = scene.is(n, nodes::X3DShapeNode) && !scene.is(n, nodes::Shape);
   const auto kind = scene.type(n).kind;
   const bool may_draw = is_shape || scene.is(n, nodes::X3DGeometryNode) || scene.is(n, nodes::Vrml1ShapeNode) ||
                         scene.is(n, nodes::Inline) || kind == NodeKind::unknown || kind == NodeKind::proto;
-  return may_draw ? Answer::perhaps : Answer::no;
+  return may_draw ? Drawn::perhaps : Drawn::no;
 }
 
 /// Of what instances of prototypes hold, nobody knows here whether it is drawn.
-Answer draws_anything(const Scene& scene) {
-  Answer out = Answer::no;
+Drawn anything_drawn(const Scene& scene) {
+  Drawn out = Drawn::no;
   std::vector<char> seen(scene.node_count());
   std::vector<NodeId> stack(scene.main.roots.rbegin(), scene.main.roots.rend());
-  while (!stack.empty() && out != Answer::yes) {
+  while (!stack.empty() && out != Drawn::yes) {
     const NodeId n = stack.back();
     stack.pop_back();
     if (std::exchange(seen[n.value], 1)) continue;
-    out = std::max(out, draws(scene, n));
+    out = std::max(out, drawn_by(scene, n));
     const auto kind = scene.type(n).kind;
     if (kind != NodeKind::proto && kind != NodeKind::script)
       for_each_child(scene, n, [&](NodeId c) { stack.push_back(c); });
@@ -69,10 +69,10 @@ Answer draws_anything(const Scene& scene) {
 
 }  // namespace
 
-EmptiedScene::EmptiedScene(const Scene& scene) : had_any_(draws_anything(scene) == Answer::yes) {}
+EmptiedScene::EmptiedScene(const Scene& scene) : had_any_(anything_drawn(scene) == Drawn::yes) {}
 
 void EmptiedScene::report(const Scene& scene, Diagnostics& diag) const {
-  if (had_any_ && draws_anything(scene) == Answer::no)
+  if (had_any_ && anything_drawn(scene) == Drawn::no)
     diag.report(Diag::nothing_drawn, scene.file,
                 "the passes have left nothing of it; lengths without a unit are metres");
 }
