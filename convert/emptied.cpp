@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "convert/drawn_search.h"
 #include "geometry/triangulation.h"
 #include "scenegraph/nodes.h"
 #include "scenegraph/walk.h"
@@ -37,42 +37,34 @@ bool has_face(const Scene& scene, NodeId n) {
   return false;
 }
 
-enum class Drawn : std::uint8_t { no, perhaps, yes };
-
-Drawn drawn_by(const Scene& scene, NodeId n) {
-  if (scene.is(n, nodes::IndexedFaceSet)) return has_face(scene, n) ? Drawn::yes : Drawn::no;
+IsDrawn draws_certainly(const Scene& scene, NodeId n) {
+  if (scene.is(n, nodes::IndexedFaceSet)) return has_face(scene, n) ? IsDrawn::yes : IsDrawn::no;
   if (scene.is(n, nodes::Box) || scene.is(n, nodes::Cone) || scene.is(n, nodes::Cylinder) || scene.is(n, nodes::Sphere))
-    return Drawn::yes;
+    return IsDrawn::yes;
   const bool is_shape = scene.is(n, nodes::X3DShapeNode) && !scene.is(n, nodes::Shape);
   const auto kind = scene.type(n).kind;
   const bool may_draw = is_shape || scene.is(n, nodes::X3DGeometryNode) || scene.is(n, nodes::Vrml1ShapeNode) ||
                         scene.is(n, nodes::Inline) || kind == NodeKind::unknown || kind == NodeKind::proto;
-  return may_draw ? Drawn::perhaps : Drawn::no;
+  return may_draw ? IsDrawn::perhaps : IsDrawn::no;
 }
 
 /// Of what instances of prototypes hold, nobody knows here whether it is drawn.
-Drawn anything_drawn(const Scene& scene) {
-  Drawn out = Drawn::no;
-  std::vector<char> seen(scene.node_count());
-  std::vector<NodeId> stack(scene.main.roots.rbegin(), scene.main.roots.rend());
-  while (!stack.empty() && out != Drawn::yes) {
-    const NodeId n = stack.back();
-    stack.pop_back();
-    if (std::exchange(seen[n.value], 1)) continue;
-    out = std::max(out, drawn_by(scene, n));
-    const auto kind = scene.type(n).kind;
-    if (kind != NodeKind::proto && kind != NodeKind::script)
-      for_each_child(scene, n, [&](NodeId c) { stack.push_back(c); });
-  }
-  return out;
+IsDrawn anything_drawn(const Scene& scene) {
+  return DrawnSearch(
+      scene, [&](NodeId n) { return draws_certainly(scene, n); },
+      [&](NodeId n, std::vector<NodeId>& stack) {
+        const auto kind = scene.type(n).kind;
+        if (kind != NodeKind::proto && kind != NodeKind::script)
+          for_each_child(scene, n, [&](NodeId c) { stack.push_back(c); });
+      })(scene.main.roots);
 }
 
 }  // namespace
 
-EmptiedScene::EmptiedScene(const Scene& scene) : had_any_(anything_drawn(scene) == Drawn::yes) {}
+EmptiedScene::EmptiedScene(const Scene& scene) : had_any_(anything_drawn(scene) == IsDrawn::yes) {}
 
 void EmptiedScene::report(const Scene& scene, Diagnostics& diag) const {
-  if (had_any_ && anything_drawn(scene) == Drawn::no)
+  if (had_any_ && anything_drawn(scene) == IsDrawn::no)
     diag.report(Diag::nothing_drawn, scene.file,
                 "the passes have left nothing of it; lengths without a unit are metres");
 }

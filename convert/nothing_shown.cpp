@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/stop.h"
+#include "convert/drawn_search.h"
 #include "convert/expanded_copy.h"
 #include "convert/hidden_geometry.h"
 #include "scenegraph/nodes.h"
@@ -29,49 +29,29 @@ bool draws(const Scene& scene, NodeId n) {
          scene.type(n).kind == NodeKind::unknown;
 }
 
-std::vector<NodeId> shown(const Scene& scene, NodeId n) {
-  if (is_switch(scene, n)) return shown_of_switch(scene, n);
-  std::vector<NodeId> out;
-  for_each_child(scene, n, [&](NodeId c) { out.push_back(c); });
-  return out;
+/// Instances of prototypes draw what nobody knows before they are expanded.
+IsDrawn answer(const Scene& scene, NodeId n) {
+  if (draws(scene, n)) return IsDrawn::yes;
+  return is_instance(scene, n) ? IsDrawn::perhaps : IsDrawn::no;
 }
 
-enum class Answer : std::uint8_t { no, perhaps, yes };  // perhaps: there are instances of prototypes
+void push_shown(const Scene& scene, NodeId n, std::vector<NodeId>& stack) {
+  if (scene.type(n).kind == NodeKind::script || is_instance(scene, n)) return;
+  if (!is_switch(scene, n)) return for_each_child(scene, n, [&](NodeId c) { stack.push_back(c); });
+  for (const NodeId c : shown_of_switch(scene, n)) stack.push_back(c);
+}
 
-/// Looks for what is drawn; `all`: or would be, were every Switch on. What draws nothing is gone through once, however
-/// many fields hold it.
-class Search {
- public:
-  Search(const Scene& scene, bool all) : scene_(scene), all_(all), seen_(scene.node_count()) {}
+/// As if every Switch were on.
+void push_all(const Scene& scene, NodeId n, std::vector<NodeId>& stack) {
+  if (scene.type(n).kind == NodeKind::script) return;
+  for_each_child(scene, n, [&](NodeId c) { stack.push_back(c); });
+}
 
-  /// Of the nodes that have not been asked for: everything below those that have been draws nothing.
-  Answer is_drawn(std::span<const NodeId> roots) {
-    Answer out = Answer::no;
-    std::vector<NodeId> stack(roots.rbegin(), roots.rend());
-    while (!stack.empty()) {
-      check_stop();
-      const NodeId n = stack.back();
-      stack.pop_back();
-      if (std::exchange(seen_[n.value], 1)) continue;
-      if (draws(scene_, n)) return Answer::yes;
-      if (is_instance(scene_, n)) out = Answer::perhaps;
-      push_below(n, stack);
-    }
-    return out;
-  }
-
- private:
-  void push_below(NodeId n, std::vector<NodeId>& stack) const {
-    if (scene_.type(n).kind == NodeKind::script) return;
-    if (all_) return for_each_child(scene_, n, [&](NodeId c) { stack.push_back(c); });
-    if (is_instance(scene_, n)) return;
-    for (const NodeId c : shown(scene_, n)) stack.push_back(c);
-  }
-
-  const Scene& scene_;
-  bool all_;
-  std::vector<char> seen_;
-};
+auto search(const Scene& scene, void (*push)(const Scene&, NodeId, std::vector<NodeId>&)) {
+  return DrawnSearch(
+      scene, [&scene](NodeId n) { return answer(scene, n); },
+      [&scene, push](NodeId n, std::vector<NodeId>& stack) { push(scene, n, stack); });
+}
 
 std::string listed(const std::vector<std::string>& names) {
   std::string out;
@@ -86,11 +66,11 @@ struct Ignored {
 };
 
 std::optional<Ignored> ignored_field(const Scene& scene) {
-  Search search(scene, true);
+  auto find_drawn = search(scene, push_all);
   for (const NodeId n : reachable(scene, scene.main)) {
     if (!is_instance(scene, n)) continue;
     for (const Value& v : scene.fields(n)) {
-      if (search.is_drawn(scene.content(v).node_span()) == Answer::yes)
+      if (find_drawn(scene.content(v).node_span()) == IsDrawn::yes)
         return Ignored{n, std::string(scene.field_name(n, v))};
     }
   }
@@ -136,12 +116,12 @@ void report_without_roots(const Scene& scene, Diagnostics& diag) {
 /// `hidden_told`: what its Switches hide has been reported.
 void report_nothing_shown(const Scene& scene, bool hidden_told, Diagnostics& diag) {
   if (scene.main.roots.empty()) return report_without_roots(scene, diag);
-  if (Search(scene, false).is_drawn(scene.main.roots) == Answer::yes) return;
+  if (search(scene, push_shown)(scene.main.roots) == IsDrawn::yes) return;
   // Switches may be in prototypes, and prototypes in Switches.
   const Scene expanded = expanded_copy(scene, nullptr, diag);
   const auto& roots = expanded.main.roots;
-  if (Search(expanded, false).is_drawn(roots) != Answer::no) return;
-  const bool hidden = Search(expanded, true).is_drawn(roots) != Answer::no;
+  if (search(expanded, push_shown)(roots) != IsDrawn::no) return;
+  const bool hidden = search(expanded, push_all)(roots) != IsDrawn::no;
   if (!hidden || !hidden_told) report_cause(scene, hidden, diag);
 }
 
