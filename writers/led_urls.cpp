@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/io/url.h"
+
 namespace wrlkit {
 namespace {
 
@@ -12,10 +14,6 @@ bool is_made(std::string_view url) { return url.starts_with(made_scheme); }
 
 fs::path folder_of(std::string_view file) {
   return (fs::absolute("." / fs::path(file).parent_path()) / "").lexically_normal();
-}
-
-bool is_relative(std::string_view url) {
-  return !url.empty() && url[0] != '/' && url[0] != '#' && url.find(':') == url.npos;
 }
 
 struct Folders {
@@ -48,7 +46,7 @@ std::vector<std::string> led_urls(const Scene& scene, Span where, std::span<cons
   for (auto& url : led) {
     if (auto copy = leads.copy ? leads.copy(url, where, use) : std::nullopt)
       url = std::move(*copy);
-    else if (is_relative(url) && folders)
+    else if (is_relative_url(url) && folders)
       url = (folders->from / url).lexically_normal().lexically_relative(folders->here).generic_string();
   }
   return led;

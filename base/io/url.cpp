@@ -64,6 +64,10 @@ std::vector<std::string> url_paths(std::string_view url) {
   return paths;
 }
 
+bool is_relative_url(std::string_view url) {
+  return !url.empty() && url[0] != '/' && url[0] != '\\' && url[0] != '#' && url.find(':') == url.npos;
+}
+
 std::optional<std::string> decode_data_url(std::string_view url) {
   url = trim(url);
   auto comma = url.find(',');

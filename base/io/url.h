@@ -16,6 +16,10 @@ UrlKind url_kind(std::string_view url);
 /// (RFC 3986), then as it is written. Absolute paths begin with '/', or with a drive: "C:/". Never empty.
 std::vector<std::string> url_paths(std::string_view url);
 
+/// Whether it leads from the file in which it stands to another one: no scheme, no drive, no path from the root, and
+/// more than a fragment.
+bool is_relative_url(std::string_view url);
+
 /// "C:/..." of other systems.
 bool has_drive(std::string_view path);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/math/digits.h"
 #include "base/text/blanks.h"
 
 namespace wrlkit {
@@ -17,12 +18,18 @@ bool is_keyword(std::string_view word) {
   return std::ranges::find(words, word) != std::end(words);
 }
 
-/// A number, or one of the words that readers take for one.
-bool is_plain_word(std::string_view word) {
-  if (word == "TRUE" || word == "FALSE") return true;
-  const bool begins = is_digit(word[0]) || word[0] == '+' || word[0] == '-' || word[0] == '.';
-  return begins && std::ranges::all_of(word, [](char c) { return is_letter(c) || c == '+' || c == '-' || c == '.'; });
+/// With a sign or without, in hexadecimal, too.
+bool is_number(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with("0x") || word.starts_with("0X")) {
+    word.remove_prefix(2);
+    return !word.empty() && word.find_first_not_of("0123456789abcdefABCDEF") == word.npos;
+  }
+  double value = 0;
+  return !word.empty() && (is_digit(word.back()) || word.back() == '.') && read_number(word, value);
 }
+
+bool is_plain_word(std::string_view word) { return word == "TRUE" || word == "FALSE" || is_number(word); }
 
 bool is_of_vrml1(std::string_view s) {
   if (s.starts_with('(') && s.ends_with(')'))

@@ -303,10 +303,8 @@ std::string as_vrml(std::string_view s) {
   s = trim(s);
   if (s == "true" || s == "TRUE") return "TRUE";
   if (s == "false" || s == "FALSE") return "FALSE";
-  if (s.empty()) return {};
-  const bool plain = s.starts_with('"') || s.starts_with('[') ||
-                     (!s.empty() && s.find_first_not_of("+-.0123456789eE, \t\n\r") == s.npos);
-  return plain && is_vrml_value(s) ? std::string(s) : in_quotes(s);
+  if (!is_vrml97_value(s)) return in_quotes(s);
+  return is_bare_list_of_strings(s) ? "[" + std::string(s) + "]" : std::string(s);
 }
 
 int version_number(std::string_view s) {

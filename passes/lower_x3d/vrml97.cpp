@@ -4,7 +4,6 @@
 #include <map>
 #include <string>
 
-#include "base/text/vrml_value.h"
 #include "passes/lower_x3d/geometry.h"
 #include "passes/lower_x3d/texture_background.h"
 #include "passes/lower_x3d/vrml97_names.h"
@@ -33,7 +32,6 @@ class Vrml97Lowering {
     for (NodeId n : all) changed_ |= lower_texture_background(scene_, n, diag_);
     for (NodeId n : all) foreign_children(n);
     for (NodeId n : all) foreign_fields(n);
-    for (NodeId n : all) unknown_values(n);
     for (NodeId n : all) foreign_node(n);
     for (std::uint32_t i = 0; i < scene_.proto_count(); ++i)
       interface(scene_.type(scene_.proto(ProtoId{i}).type), 0, scene_.proto(ProtoId{i}).where);
@@ -119,25 +117,6 @@ class Vrml97Lowering {
       scene_.unset(n, v.slot);
       changed_ = true;
     }
-  }
-
-  /// Fields that no standard has, such as attributes of one program: kept, but as values that VRML97 could have.
-  void unknown_values(NodeId n) {
-    if (scene_.format == Format::vrml97) return;
-    auto fields = scene_.copy_of_fields(n);
-    bool any = false;
-    for (Value& v : fields) {
-      if (!scene_.is_extra(v) || v.extra->value.is || v.extra->value.type != FieldType::verbatim) continue;
-      const auto text = v.extra->value.text();
-      const bool is_event = v.extra->name.find(' ') != std::string_view::npos;
-      const bool is_list = is_bare_list_of_strings(text);
-      if (is_event || (!text.empty() && !is_list)) continue;
-      const auto whole = is_list ? "[" + std::string(text) + "]" : std::string("\"\"");
-      v = scene_.make_extra(v.extra->name, scene_.make(FieldType::verbatim, Value::extra_slot, whole));
-      any = true;
-    }
-    if (any) scene_.set_fields(n, fields);
-    changed_ |= any;
   }
 
   /// Children of groups: an empty Group of that name, so that USE still finds

@@ -97,15 +97,14 @@ class Namer {
     if (at == plan_.by_path.end()) return use == UrlUse::link ? led(url) : "";
     const auto& target = plan_.jobs[at->second];
     const bool has_its_name = fs::path(target.output).filename() == fs::path(target.input.inside).filename();
-    if (is_relative(url) && (target.input.asset || has_its_name)) return "";
+    const bool leads_there = found.state == AllowedFiles::found && is_relative_url(url);
+    if (leads_there && (target.input.asset || has_its_name)) return "";
     // Both below one folder, so that one leads to the other without leaving it.
     return url_of(("/" / fs::path(target.output))
                       .lexically_relative(("/" / fs::path(job_.output)).parent_path())
                       .generic_string()) +
            name_written_in(target, fragment);
   }
-
-  static bool is_relative(std::string_view url) { return url[0] != '/' && url[0] != '\\' && url.find(':') == url.npos; }
 
   /// As seen from the file that has the link, whose urls the writer leads to the folder of the output.
   std::string from_input(const CorpusJob& target) const {
@@ -114,7 +113,7 @@ class Namer {
 
   /// Pages, and scenes that do not come along: to where they are, as a single conversion does.
   std::string led(std::string_view url) const {
-    if (!is_relative(url) || prefix_.empty()) return "";
+    if (!is_relative_url(url) || prefix_.empty()) return "";
     return (url_of(prefix_.generic_string()) / fs::path(url)).lexically_normal().generic_string();
   }
 

@@ -283,15 +283,14 @@ void Extras::tag_fields(JsonOut& json, NodeId n) {
   for (const Value& v : scene_.fields(n)) {
     if (!is_tag(scene_, n, v)) continue;
     json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
-    scene_.is_extra(v) ? unknown(json, v.extra->value, 0) : value(json, v, 0);
+    field_value(json, v, 0);
   }
 }
 
 void Extras::geometry_field(JsonOut& json, NodeId n, const Value& v) {
   json.key(scene_.is_extra(v) ? v.extra->name : scene_.type(n).fields[v.slot].name_in(Dialect::vrml97));
-  if (scene_.is_extra(v)) return unknown(json, v.extra->value, 0);
-  const bool one_node = !is_tag(scene_, n, v) && v.type == FieldType::SFNode;
-  if (!one_node || scene_.type(v.node).kind == NodeKind::unknown) return value(json, scene_.content(v), 0);
+  const bool one_node = !scene_.is_extra(v) && !is_tag(scene_, n, v) && v.type == FieldType::SFNode;
+  if (!one_node || scene_.type(v.node).kind == NodeKind::unknown) return field_value(json, v, 0);
   json.object([&] {
     json.object(scene_.type(v.node).name, [&] {
       if (auto def = name(v.node); !def.empty()) json.member("DEF", def);
@@ -315,10 +314,7 @@ void Extras::fields(JsonOut& json, NodeId n, Said said, std::size_t depth, bool 
   for (const Value& v : scene_.fields(n)) {
     if (!speaks(n, v, said) || (only_short && is_long(scene_.content(v)))) continue;
     json.key(scene_.is_extra(v) ? v.extra->name : t.fields[v.slot].name_in(Dialect::vrml97));
-    if (scene_.is_extra(v))
-      unknown(json, v.extra->value, depth);
-    else if (!urls(json, scene_.where(n), scene_.type_id(n), v.slot, v))
-      value(json, v, depth);
+    if (scene_.is_extra(v) || !urls(json, scene_.where(n), scene_.type_id(n), v.slot, v)) field_value(json, v, depth);
   }
   if (only_short || n_table_fields(t) == t.fields.size()) return;
   json.key("interface");
@@ -405,6 +401,11 @@ void Extras::import(JsonOut& json, const Import& i) const {
 
 void Extras::export_(JsonOut& json, const Export& e) const {
   json.value(fmt::format("{} AS {}", name(e.node), e.name));
+}
+
+void Extras::field_value(JsonOut& json, const Value& v, std::size_t depth) {
+  if (scene_.is_extra(v)) return unknown(json, v.extra->value, depth);
+  value(json, v, depth);
 }
 
 void Extras::unknown(JsonOut& json, const Value& v, std::size_t depth) {

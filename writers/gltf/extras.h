@@ -128,6 +128,7 @@ class Extras {
   void fields(JsonOut&, NodeId, Said, std::size_t depth, bool only_short = false);
   void interface(JsonOut&, const NodeType&, NodeId, std::size_t depth);
   void proto(JsonOut&, const Proto&, std::optional<std::size_t> in);
+  void field_value(JsonOut&, const Value&, std::size_t depth);
   /// The value of a field that no table has, with its type where JSON does not tell it: {"SFInt32": 3}.
   void unknown(JsonOut&, const Value&, std::size_t depth);
   void value(JsonOut&, const Value&, std::size_t depth);

@@ -40,7 +40,7 @@ constexpr double worth_saying = 10'000;  // metres
 /// From the nearest point of a box.
 double distance_to(const Box& box, const Vec3& p) {
   Vec3 nearest = p;
-  for (std::size_t i = 0; i < 3; ++i) nearest[i] = std::min(std::max(p[i], box.low[i]), box.high[i]);
+  for (std::size_t i = 0; i < 3; ++i) nearest[i] = std::clamp(p[i], box.low[i], box.high[i]);
   return length(p - nearest);
 }
 
@@ -191,8 +191,9 @@ class Writer {
 
   /// Numbers of another unit, or with another axis up, lead away from the scene.
   void report_given_origin() {
+    if (document_.world.empty()) return;
     const double far = distance_to(document_.world, *document_.origin), before = distance_to(document_.world, Vec3{});
-    if (!document_.world.empty() && far > std::max(before, worth_saying))
+    if (far > std::max(before, worth_saying))
       diag_.report(Diag::origin_far, {}, options_.origin.print(), fmt::format("{:.6g}", far),
                    fmt::format("{:.6g}", before));
   }

@@ -312,9 +312,13 @@ class X3dWriter : TextDocument {
     const auto name = v.extra->name;
     const bool reserved = name.starts_with("xml") || name == "DEF" || name == "USE" || name == "containerField" ||
                           name == "class" || name == "id" || name == "style";
-    if (!is_xml_name(name) || reserved || c.type != FieldType::verbatim || is_written_before(n, v))
+    const bool is_node = info(c.type).element == Element::node;
+    if (!is_xml_name(name) || reserved || is_node || is_written_before(n, v))
       return diag_.report(Diag::no_x3d_value, scene_.where(n), name, scene_.type(n).name);
-    attribute(name, as_xml(scene_.format == Format::x3d_xml ? c.text() : without_brackets(c.text())));
+    if (c.type == FieldType::verbatim) return attribute(name, as_xml(without_brackets(c.text())));
+    out_ << ' ' << name << "='";
+    value(c);
+    out_ << '\'';
   }
 
   /// XML has no brackets around lists.

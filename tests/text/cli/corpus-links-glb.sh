@@ -7,7 +7,7 @@ cat > in/a.wrl <<X
 #VRML V2.0 utf8
 Anchor { url "sub/b.wrl#V" children $(box) }
 Anchor { url "page.html" children $(box) }
-Inline { url "sub/b.wrl" }
+Inline { url "SUB\\\\B.WRL" }
 Inline { url "C:\\\\plants\\\\c.wrl" }
 X
 cat > in/sub/b.wrl <<X
