@@ -56,9 +56,15 @@ class ValueText {
     count_ += depth_ == 0 && c != '#' && c != ']';
     if (c == '"') return string();
     if (c == '#') return comment();
-    if (c == '[') return ++depth_, take(1);
-    if (c == ']') return depth_-- > 0 && take(1);
+    if (c == '[' || c == ']') return bracket();
     return word();
+  }
+
+  bool bracket() {
+    const bool opens = rest_[0] == '[';
+    if (!opens && depth_ == 0) return false;
+    depth_ += opens ? 1 : -1;
+    return take(1);
   }
 
   /// One at the very end would swallow what is written behind it.
@@ -90,7 +96,8 @@ class ValueText {
   }
 
   std::string_view rest_;
-  std::size_t depth_ = 0, count_ = 0;
+  int depth_ = 0;
+  std::size_t count_ = 0;
   bool has_strings_ = false;
 };
 
